@@ -1,0 +1,224 @@
+// sdm-lobes: modal table and cut in, stability chart out.
+
+#include <algorithm>
+#include <optional>
+
+#include "base/parallel.h"
+#include "base/units.h"
+#include "cli/exit_status.h"
+#include "cli/progress_bar.h"
+#include "cli/tool.h"
+#include "document/cut.h"
+#include "document/error.h"
+#include "document/lobes.h"
+#include "document/modal_table.h"
+
+namespace stablecut {
+namespace {
+
+// The chart where neither cut nor options say one.
+constexpr Range kDefaultSpeed{2000, 20000, kDefaultChartCount};
+constexpr Range kDefaultDepth{0, 5, kDefaultChartCount};
+
+// Above this estimated error of the spectral radius the result is called not converged.
+constexpr double kSuspectError = 1e-6;
+
+class SdmLobes : public cli::Tool {
+ public:
+  SdmLobes()
+      : Tool("sdm-lobes",
+             "Stability lobes of milling from a modal table of the tool tip: spectral radii over speed and depth, "
+             "and the limit depth at each speed.",
+             "lobes") {}
+
+ private:
+  void setup(CLI::App& app) override {
+    const auto positive = [](double value) { return value > 0; };
+    const auto not_negative = [](double value) { return value >= 0; };
+    not_in_provenance(app.add_option("--cut", cut_path_, "Cut document: cutter, coefficients, engagement, chart")
+                          ->type_name("FILE"));
+    cut_options_ = {
+        cli::add_integer_option(app, "--teeth", teeth_, 1, "Number of teeth"),
+        cli::add_number_option(app, "--kt", kt_, "Tangential cutting coefficient, N/mm2", "a number above 0", positive),
+        cli::add_number_option(app, "--kr", kr_, "Radial cutting coefficient, N/mm2", "a number not below 0",
+                               not_negative),
+        app.add_option("--milling", milling_, "Milling direction, with --immersion")
+            ->check(CLI::IsMember({"up", "down"}))
+            ->type_name("up|down"),
+        cli::add_number_option(app, "--immersion", immersion_, "Radial immersion ae/D", "a ratio above 0 and at most 1",
+                               [](double value) { return value > 0 && value <= 1; })};
+    cli::add_range_option(app, "--speed", speed_, "Spindle speeds, rpm (default: the cut's chart, else 2000:20000:64)");
+    cli::add_range_option(app, "--depth", depth_, "Axial depths, mm (default: the cut's chart, else 0:5:64)");
+    app.add_option("--method", method_, "spectral: converged; sdm: the zeroth-order semi-discretization")
+        ->check(CLI::IsMember({"spectral", "sdm"}))
+        ->type_name("spectral|sdm")
+        ->capture_default_str();
+    cli::add_integer_option(app, "--intervals", intervals_, 1, "Intervals per tooth period, for sdm (default: 40)");
+    app.add_option_function<std::string>(
+           "--modes",
+           [this](const std::string& text) {
+             modes_ = parse_index_list(text);
+             if (!modes_) throw CLI::ValidationError("--modes", text + ": expected 1-based indices such as 1-7,14-15");
+           },
+           "Use only these modes of the table, such as 1-7,14-15")
+        ->type_name("LIST");
+    app.add_flag("--per-mode", per_mode_, "Also the limit of each mode alone");
+    not_in_provenance(app.add_option("--points", points_path_,
+                                     "Tested cuts to judge: CSV or JSON with depth_mm, speed_rpm[, observed]")
+                          ->type_name("FILE"));
+    app.add_flag("--limit-only", limit_only_, "No grid of spectral radii, only the limit");
+  }
+
+  void run() override {
+    if (intervals_ && method_ != "sdm") {
+      throw cli::Failure(cli::ExitStatus::kUsage, "--intervals: expected with --method sdm only");
+    }
+    const Json cut_json = cut_document();
+    const CutDocument cut = cut_from_json(cut_json, cut_source_);
+    const cli::Input table = read_main_input(true);
+    const ModalModel whole_model = modal_table_from_json(table.document, table.source);
+    const ModalModel model = selected_modes(whole_model, table.source);
+    const TipStructure structure = structure_of(model, table.source);
+
+    LobesDocument lobes;
+    lobes.scheme = {method_ == "sdm" ? StabilityMethod::kSemiDiscretization : StabilityMethod::kSpectral,
+                    intervals_.value_or(StabilityScheme{}.intervals)};
+    const Range speed = speed_.value_or(cut.speed_rpm.value_or(kDefaultSpeed));
+    const Range depth = depth_.value_or(cut.depth_mm.value_or(kDefaultDepth));
+    if (!(speed.from > 0)) throw cli::Failure(cli::ExitStatus::kUsage, "--speed: expected speeds above 0 rpm");
+    if (depth.from < 0) throw cli::Failure(cli::ExitStatus::kUsage, "--depth: expected depths not below 0 mm");
+    lobes.speed_rpm = speed.values();
+    lobes.depth_mm = depth.values();
+    lobes.cut = cut_as_used(cut_json, speed, depth);
+    if (!points_path_.empty()) {
+      const cli::Input points = read_input(points_path_, false);
+      for (const MeasuredCut& measured : measured_cuts(points.source, points.document)) {
+        lobes.points.push_back({measured, 0});
+      }
+    }
+
+    std::vector<double> revolutions_per_s, depths_m;
+    for (const double rpm : lobes.speed_rpm) revolutions_per_s.push_back(revolutions_per_s_from_rpm(rpm));
+    for (const double mm : lobes.depth_mm) depths_m.push_back(metres_from_mm(mm));
+    {
+      cli::ProgressBar bar("sdm-lobes: chart", !quiet());
+      lobes.chart = stability_chart(structure, cut.cutter, revolutions_per_s, depths_m, lobes.scheme, !limit_only_,
+                                    threads(), [&](double share) { bar.show(share); });
+    }
+    if (per_mode_) {
+      lobes.per_mode = limit_of_each_mode(whole_model, cut.cutter, revolutions_per_s, depths_m, lobes.scheme);
+    }
+    judge(structure, cut.cutter, lobes);
+    if (lobes.scheme.method == StabilityMethod::kSpectral && std::max(lobes.chart.error, lobes.points_error) > kSuspectError) {
+      warn("the spectral radius has converged only to " +
+           Json(std::max(lobes.chart.error, lobes.points_error)).dump() + " (see /convergence)");
+    }
+    write_document(main_output(), lobes_to_json(lobes));
+  }
+
+  // From --cut, or from the options.
+  Json cut_document() {
+    const bool from_options = std::any_of(cut_options_.begin(), cut_options_.end(),
+                                          [](const CLI::Option* option) { return option->count() > 0; });
+    if (!cut_path_.empty()) {
+      if (from_options) {
+        throw cli::Failure(cli::ExitStatus::kUsage,
+                           "--cut: expected either a cut document or --teeth --kt --kr --milling --immersion");
+      }
+      const cli::Input input = read_input(cut_path_, true);
+      cut_source_ = input.source;
+      return input.document;
+    }
+    for (const CLI::Option* option : cut_options_) {
+      if (option->count() == 0) {
+        throw cli::Failure(cli::ExitStatus::kUsage,
+                           option->get_name() + ": missing: expected --cut, or --teeth --kt --kr --milling --immersion");
+      }
+    }
+    cut_source_.name = "options";
+    return {{"format", "stablecut/cut/1"}, {"teeth", *teeth_},     {"kt_n_per_mm2", *kt_},
+            {"kr_n_per_mm2", *kr_},        {"milling", milling_}, {"radial_immersion", *immersion_}};
+  }
+
+  static Json cut_as_used(Json cut, const Range& speed, const Range& depth) {
+    cut.erase("format");
+    cut.erase("provenance");
+    const auto range = [](const Range& r) { return Json{{"from", r.from}, {"to", r.to}, {"count", r.count}}; };
+    cut["chart"] = {{"speed_rpm", range(speed)}, {"depth_mm", range(depth)}};
+    return cut;
+  }
+
+  ModalModel selected_modes(const ModalModel& model, const Source& source) const {
+    if (!modes_) return model;
+    ModalModel selected{model.dofs, {}};
+    for (const int index : *modes_) {
+      if (static_cast<std::size_t>(index) > model.modes.size()) {
+        throw cli::Failure(cli::ExitStatus::kUsage, "--modes: " + std::to_string(index) + ": expected at most " +
+                                                        std::to_string(model.modes.size()) + ", the modes of " +
+                                                        source.name);
+      }
+      selected.modes.push_back(model.modes[static_cast<std::size_t>(index - 1)]);
+    }
+    return selected;
+  }
+
+  static TipStructure structure_of(const ModalModel& model, const Source& source) {
+    if (model.dof("x") < 0 && model.dof("y") < 0) {
+      throw DataError(source.name, "/dofs", Json(model.dofs).dump(), "expected x, y or both");
+    }
+    TipStructure structure = tip_structure(model);
+    if (structure.modes() == 0) {
+      throw DataError(source.name, "/modes", "", "expected at least one mode that a force in x or y drives and that moves x or y");
+    }
+    return structure;
+  }
+
+  std::vector<ModeLimit> limit_of_each_mode(const ModalModel& model, const Cutter& cutter,
+                                            const std::vector<double>& revolutions_per_s,
+                                            const std::vector<double>& depths_m, const StabilityScheme& scheme) const {
+    std::vector<int> indices;
+    for (int k = 1; k <= static_cast<int>(model.modes.size()); ++k) {
+      if (!modes_ || std::binary_search(modes_->begin(), modes_->end(), k)) indices.push_back(k);
+    }
+    std::vector<ModeLimit> result;
+    cli::ProgressBar bar("sdm-lobes: modes", !quiet());
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+      const ModalModel alone{model.dofs, {model.modes[static_cast<std::size_t>(indices[i] - 1)]}};
+      ModeLimit limit{indices[i], std::vector<std::optional<StabilityLimit>>(revolutions_per_s.size())};
+      // A mode that a force at the tip does not drive, or that does not move it, cannot chatter.
+      if (const TipStructure structure = tip_structure(alone); structure.modes() > 0) {
+        limit.limit = stability_chart(structure, cutter, revolutions_per_s, depths_m, scheme, false, threads()).limit;
+      }
+      result.push_back(std::move(limit));
+      bar.show(static_cast<double>(i + 1) / static_cast<double>(indices.size()));
+    }
+    return result;
+  }
+
+  void judge(const TipStructure& structure, const Cutter& cutter, LobesDocument& lobes) const {
+    std::vector<double> error(lobes.points.size(), 0.0);
+    parallel_for(lobes.points.size(), threads(), [&](std::size_t i) {
+      JudgedCut& point = lobes.points[i];
+      const double depth_m = metres_from_mm(point.cut.depth_mm);
+      const PreparedPeriod period = prepare_period(
+          structure, cutter, revolutions_per_s_from_rpm(point.cut.speed_rpm), lobes.scheme, depth_m);
+      point.spectral_radius = spectral_radius(*period.map, depth_m);
+      error[i] = period.error;
+    });
+    if (!error.empty()) lobes.points_error = *std::max_element(error.begin(), error.end());
+  }
+
+  std::string cut_path_, points_path_, milling_, method_ = "spectral";
+  std::optional<int> teeth_, intervals_;
+  std::optional<double> kt_, kr_, immersion_;
+  std::vector<CLI::Option*> cut_options_;
+  std::optional<Range> speed_, depth_;
+  std::optional<std::vector<int>> modes_;
+  bool per_mode_ = false, limit_only_ = false;
+  Source cut_source_;
+};
+
+}  // namespace
+}  // namespace stablecut
+
+int main(int argc, char** argv) { return stablecut::SdmLobes().main(argc, argv); }

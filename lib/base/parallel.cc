@@ -1,0 +1,46 @@
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace stablecut {
+
+void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& work,
+                  const Progress& progress) {
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  std::size_t finished = 0;
+  std::size_t failed_index = count;
+  std::exception_ptr failure;
+
+  const auto worker = [&] {
+    for (std::size_t i = next++; i < count; i = next++) {
+      try {
+        work(i);
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (i < failed_index) {
+          failed_index = i;
+          failure = std::current_exception();
+        }
+        next = count;
+      }
+      const std::lock_guard lock(mutex);
+      ++finished;
+      if (progress) progress(static_cast<double>(finished) / static_cast<double>(count));
+    }
+  };
+
+  const std::size_t helpers = std::min<std::size_t>(count, static_cast<std::size_t>(std::max(threads, 1)));
+  std::vector<std::jthread> pool;
+  for (std::size_t k = 1; k < helpers; ++k) pool.emplace_back(worker);
+  worker();
+  pool.clear();  // joins
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace stablecut

@@ -1,0 +1,32 @@
+// Exit statuses of every tool, and the errors that only a command-line program has.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace stablecut::cli {
+
+enum class ExitStatus {
+  kDone = 0,
+  kNoAnswer = 1,        ///< valid input without an answer
+  kUsage = 64,          ///< wrong options
+  kData = 65,           ///< wrong data
+  kNoInput = 66,        ///< input missing or unreadable
+  kInternal = 70,
+  kCannotCreate = 73,   ///< output cannot be created
+  kIo = 74,             ///< reading or writing failed
+  kInterrupted = 130,
+  kPipeClosed = 141,    ///< the reader of standard output is gone
+};
+
+/// Ends the tool with a status and a line.
+class Failure : public std::runtime_error {
+ public:
+  Failure(ExitStatus status, const std::string& text) : std::runtime_error(text), status_(status) {}
+  ExitStatus status() const { return status_; }
+
+ private:
+  ExitStatus status_;
+};
+
+}  // namespace stablecut::cli

@@ -1,0 +1,153 @@
+#include "cli/output.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+
+#include "cli/exit_status.h"
+
+namespace stablecut::cli {
+namespace {
+
+// Names of unfinished files, for the signal handler: it may only read and unlink.
+constexpr std::size_t kSlots = 16;
+std::array<std::atomic<const char*>, kSlots> unfinished;
+
+void register_unfinished(const char* name) {
+  for (auto& slot : unfinished) {
+    const char* empty = nullptr;
+    if (slot.compare_exchange_strong(empty, name)) return;
+  }
+}
+
+void forget_unfinished(const char* name) {
+  for (auto& slot : unfinished) {
+    const char* held = name;
+    if (slot.compare_exchange_strong(held, nullptr)) return;
+  }
+}
+
+extern "C" void remove_unfinished_and_exit(int signal) {
+  for (auto& slot : unfinished) {
+    if (const char* name = slot.load()) unlink(name);
+  }
+  _exit(128 + signal);
+}
+
+[[noreturn]] void fail(ExitStatus status, const std::string& name, const char* what) {
+  throw Failure(status, name + ": " + what + ": " + std::strerror(errno));
+}
+
+void write_all(int file, const std::string& text, const std::string& name) {
+  std::size_t done = 0;
+  while (done < text.size()) {
+    const ssize_t wrote = write(file, text.data() + done, text.size() - done);
+    if (wrote < 0 && errno == EINTR) continue;
+    if (wrote < 0 && errno == EPIPE) throw Failure(ExitStatus::kPipeClosed, "");
+    if (wrote < 0) fail(ExitStatus::kIo, name, "cannot be written");
+    done += static_cast<std::size_t>(wrote);
+  }
+}
+
+// Follows symbolic links, so that a rename replaces the file and not the link.
+std::string resolved(const std::string& path) {
+  char* real = realpath(path.c_str(), nullptr);
+  if (real == nullptr) return path;
+  std::string result(real);
+  std::free(real);
+  return result;
+}
+
+}  // namespace
+
+OutputSet::~OutputSet() {
+  for (const Item& item : items_) {
+    if (item.temporary.empty()) continue;
+    unlink(item.temporary.c_str());
+    forget_unfinished(item.temporary.c_str());
+  }
+}
+
+void OutputSet::add(const std::string& path, std::string text) { items_.push_back({path, std::move(text), "", ""}); }
+
+void OutputSet::prepare(Item& item) {
+  struct stat status {};
+  const bool exists = stat(item.path.c_str(), &status) == 0;
+  if (exists && S_ISDIR(status.st_mode)) {
+    errno = EISDIR;
+    fail(ExitStatus::kCannotCreate, item.path, "cannot be created");
+  }
+  if (exists && !S_ISREG(status.st_mode)) return;
+  if (exists && access(item.path.c_str(), W_OK) != 0) fail(ExitStatus::kCannotCreate, item.path, "cannot be created");
+  item.target = resolved(item.path);
+  const auto slash = item.target.rfind('/');
+  const std::string folder = slash == std::string::npos ? "" : item.target.substr(0, slash + 1);
+  std::string temporary = folder + ".stablecut-XXXXXX";
+  const int file = mkstemp(temporary.data());
+  if (file < 0) fail(ExitStatus::kCannotCreate, item.path, "cannot be created");
+  item.temporary = temporary;
+  register_unfinished(item.temporary.c_str());
+  try {
+    const mode_t mask = umask(0);
+    umask(mask);
+    if (fchmod(file, exists ? status.st_mode & 07777 : 0666 & ~mask) != 0) {
+      fail(ExitStatus::kCannotCreate, item.path, "cannot be created");
+    }
+    write_all(file, item.text, item.path);
+    if (fsync(file) != 0) fail(ExitStatus::kIo, item.path, "cannot be written");
+  } catch (...) {
+    close(file);
+    throw;
+  }
+  if (close(file) != 0) fail(ExitStatus::kIo, item.path, "cannot be written");
+}
+
+void OutputSet::commit() {
+  for (Item& item : items_) {
+    if (item.path != "-") prepare(item);
+  }
+  for (const Item& item : items_) {
+    if (!item.temporary.empty()) continue;
+    if (item.path == "-") {
+      write_all(STDOUT_FILENO, item.text, "<stdout>");
+      continue;
+    }
+    const int file = open(item.path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (file < 0) fail(ExitStatus::kCannotCreate, item.path, "cannot be created");
+    try {
+      write_all(file, item.text, item.path);
+    } catch (...) {
+      close(file);
+      throw;
+    }
+    if (close(file) != 0) fail(ExitStatus::kIo, item.path, "cannot be written");
+  }
+  for (Item& item : items_) {
+    if (item.temporary.empty()) continue;
+    if (rename(item.temporary.c_str(), item.target.c_str()) != 0) {
+      fail(ExitStatus::kCannotCreate, item.path, "cannot be created");
+    }
+    forget_unfinished(item.temporary.c_str());
+    item.temporary.clear();
+  }
+}
+
+void install_signal_handlers() {
+  std::signal(SIGPIPE, SIG_IGN);
+  struct sigaction action {};
+  action.sa_handler = remove_unfinished_and_exit;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  sigaction(SIGHUP, &action, nullptr);
+}
+
+}  // namespace stablecut::cli

@@ -1,0 +1,42 @@
+#include "cli/streams.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include "cli/exit_status.h"
+
+namespace stablecut::cli {
+
+Source read_source(const std::string& path) {
+  const bool standard = path == "-";
+  Source source{standard ? "<stdin>" : path, ""};
+  const auto fail = [&](ExitStatus status, const char* what) -> void {
+    throw Failure(status, source.name + ": " + what + ": " + std::strerror(errno));
+  };
+  const int file = standard ? STDIN_FILENO : open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) fail(ExitStatus::kNoInput, "cannot be read");
+  struct stat status {};
+  if (fstat(file, &status) == 0 && S_ISREG(status.st_mode)) {
+    source.text.reserve(static_cast<std::size_t>(status.st_size));
+  }
+  std::array<char, 1 << 16> buffer;
+  ssize_t got = 0;
+  while ((got = read(file, buffer.data(), buffer.size())) != 0) {
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) {
+      const bool unreadable = errno == EISDIR || errno == EBADF;
+      if (!standard) close(file);
+      fail(unreadable ? ExitStatus::kNoInput : ExitStatus::kIo, "cannot be read");
+    }
+    source.text.append(buffer.data(), static_cast<std::size_t>(got));
+  }
+  if (!standard) close(file);
+  return source;
+}
+
+}  // namespace stablecut::cli

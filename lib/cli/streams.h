@@ -1,0 +1,13 @@
+// Reading inputs whole.
+#pragma once
+
+#include <string>
+
+#include "document/json_text.h"
+
+namespace stablecut::cli {
+
+/// The bytes of a file, or of standard input for "-" (named <stdin> in messages). Throws Failure.
+Source read_source(const std::string& path);
+
+}  // namespace stablecut::cli

@@ -1,0 +1,187 @@
+#include "cli/tool.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <thread>
+
+#include "base/error.h"
+#include "cli/exit_status.h"
+#include "cli/streams.h"
+#include "document/error.h"
+
+namespace stablecut::cli {
+namespace {
+
+// One line, whatever the text was.
+void say(const std::string& name, const std::string& text) {
+  std::string line = text;
+  while (!line.empty() && (line.back() == '\n' || line.back() == ' ')) line.pop_back();
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  std::fprintf(stderr, "%s: %s\n", name.c_str(), line.c_str());
+}
+
+bool looks_like_json(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\r\n");
+  return first != std::string::npos && (text[first] == '{' || text[first] == '[');
+}
+
+template <typename T, typename Parse>
+CLI::Option* add_parsed_option(CLI::App& app, const std::string& name, T& value, const std::string& description,
+                               const std::string& type_name, const std::string& expected, const Parse& parse) {
+  return app
+      .add_option_function<std::string>(
+          name,
+          [&value, name, expected, parse](const std::string& text) {
+            value = parse(text);
+            if (!value) throw CLI::ValidationError(name, text + ": expected " + expected);
+          },
+          description)
+      ->type_name(type_name);
+}
+
+}  // namespace
+
+CLI::Option* add_range_option(CLI::App& app, const std::string& name, std::optional<Range>& value,
+                              const std::string& description) {
+  return add_parsed_option(app, name, value, description, "FROM:TO:COUNT",
+                           "FROM:TO:COUNT, increasing, or FROM:FROM:1", parse_range);
+}
+
+CLI::Option* add_band_option(CLI::App& app, const std::string& name, std::optional<Range>& value,
+                             const std::string& description) {
+  return add_parsed_option(app, name, value, description, "LO:HI", "LO:HI, two increasing numbers", parse_band);
+}
+
+CLI::Option* add_number_option(CLI::App& app, const std::string& name, std::optional<double>& value,
+                               const std::string& description, const std::string& expected,
+                               bool (*inside)(double)) {
+  return add_parsed_option(app, name, value, description, "NUMBER", expected, [inside](const std::string& text) {
+    const auto number = parse_number(text);
+    return number && inside(*number) ? number : std::nullopt;
+  });
+}
+
+CLI::Option* add_integer_option(CLI::App& app, const std::string& name, std::optional<int>& value, int least,
+                                const std::string& description) {
+  return add_parsed_option(app, name, value, description, "N", "a whole number, at least " + std::to_string(least),
+                           [least](const std::string& text) {
+                             const auto number = parse_integer(text);
+                             return number && *number >= least ? number : std::nullopt;
+                           });
+}
+
+Tool::Tool(std::string name, std::string purpose, std::string main_kind)
+    : name_(std::move(name)), main_kind_(std::move(main_kind)), app_(std::move(purpose), name_) {}
+
+Input Tool::read_input(const std::string& path, bool must_be_json) {
+  if (path == "-") {
+    if (standard_input_taken_) throw Failure(ExitStatus::kUsage, "-: expected standard input for one input only");
+    standard_input_taken_ = true;
+  }
+  Input input{read_source(path), nullptr};
+  if (must_be_json || looks_like_json(input.source.text)) input.document = parse_json(input.source);
+  inputs_.push_back(provenance_input(input.source, input.document));
+  return input;
+}
+
+void Tool::write_document(const std::string& path, Json document) {
+  if (std::find(output_paths_.begin(), output_paths_.end(), path) != output_paths_.end()) {
+    throw Failure(ExitStatus::kUsage, path + ": expected another output for each document");
+  }
+  output_paths_.push_back(path);
+  if (!without_provenance_) {
+    document["provenance"] = provenance(name_, STABLECUT_VERSION, result_arguments(), inputs_);
+  }
+  outputs_.add(path, json_text(document));
+}
+
+void Tool::warn(const std::string& text) const {
+  if (!quiet_) say(name_, "warning: " + text);
+}
+
+std::vector<std::string> Tool::result_arguments() const {
+  std::vector<std::string> arguments;
+  for (const CLI::Option* option : app_.get_options()) {
+    if (option->count() == 0 || option->get_positional() ||
+        std::find(silent_options_.begin(), silent_options_.end(), option) != silent_options_.end()) {
+      continue;
+    }
+    arguments.push_back(option->get_name());
+    if (option->get_expected_min() > 0) {
+      for (const auto& text : option->results()) arguments.push_back(text);
+    }
+  }
+  return arguments;
+}
+
+int Tool::parse(int argc, char** argv) {
+  app_.set_version_flag("--version", name_ + " " STABLECUT_VERSION, "Print the version and exit");
+  app_.set_help_flag("-h,--help", "Print this help and exit");
+  app_.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+  app_.add_option("INPUT", input_, "Input file, - for standard input")->capture_default_str();
+  not_in_provenance(app_.add_option("-o,--output", output_, "Output file, - for standard output")
+                        ->type_name("FILE")
+                        ->capture_default_str());
+  setup(app_);
+  not_in_provenance(app_.add_flag("--quiet", quiet_, "No warnings, no progress bar"));
+  const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+  threads_ = static_cast<int>(cores);
+  std::optional<int> threads;
+  not_in_provenance(add_integer_option(app_, "--threads", threads, 1, "Threads to work with (default: all cores)"));
+  not_in_provenance(app_.add_flag("--no-provenance", without_provenance_, "Leave the provenance out"));
+  schema_option_ = app_.add_option("--print-schema", schema_,
+                                   "Print the JSON Schema of a document kind and exit (default: what the tool writes)")
+                       ->type_name("KIND")
+                       ->expected(0, 1);
+  try {
+    app_.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    outputs_.add("-", app_.help());
+    return 1;
+  } catch (const CLI::CallForVersion& version) {
+    outputs_.add("-", std::string(version.what()) + "\n");
+    return 1;
+  } catch (const CLI::ParseError& error) {
+    throw Failure(ExitStatus::kUsage, std::string(error.what()) + " (see " + name_ + " --help)");
+  }
+  if (threads) threads_ = *threads;
+  if (schema_option_->count() > 0) {
+    const std::string kind = schema_.empty() ? main_kind_ : schema_;
+    const auto schema = schema_text(kind);
+    if (!schema) {
+      throw Failure(ExitStatus::kUsage, "--print-schema: " + kind + ": expected one of " + schema_kinds());
+    }
+    outputs_.add("-", std::string(*schema));
+    return 1;
+  }
+  return 0;
+}
+
+int Tool::main(int argc, char** argv) {
+  install_signal_handlers();
+  const auto end = [this](ExitStatus status, const std::string& text) {
+    if (!text.empty()) say(name_, text);
+    return static_cast<int>(status);
+  };
+  try {
+    if (parse(argc, argv) == 0) run();
+    outputs_.commit();
+    return static_cast<int>(ExitStatus::kDone);
+  } catch (const Failure& failure) {
+    return end(failure.status(), failure.what());
+  } catch (const DataError& error) {
+    return end(ExitStatus::kData, error.what());
+  } catch (const InvalidArgument& error) {
+    return end(ExitStatus::kData, error.what());
+  } catch (const NoAnswer& answer) {
+    return end(ExitStatus::kNoAnswer, answer.what());
+  } catch (const std::bad_alloc&) {
+    return end(ExitStatus::kInternal, "out of memory");
+  } catch (const std::exception& error) {
+    return end(ExitStatus::kInternal, std::string("internal error: ") + error.what());
+  }
+}
+
+}  // namespace stablecut::cli

@@ -1,0 +1,90 @@
+// What every tool shares: options, inputs, outputs, provenance, the catch ladder.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "base/range.h"
+#include "cli/output.h"
+#include "document/provenance.h"
+#include "document/schemas.h"
+
+namespace stablecut::cli {
+
+/// An input read and, when it is JSON, parsed.
+struct Input {
+  Source source;
+  Json document;  ///< null when the text is not JSON
+};
+
+/// One executable. A tool declares its options in setup(), which opens nothing, and works in run(), which throws
+/// on failure; outputs are written after run() has returned.
+class Tool {
+ public:
+  /// `main_kind` is the document kind that --print-schema prints by default.
+  Tool(std::string name, std::string purpose, std::string main_kind);
+  virtual ~Tool() = default;
+
+  /// Parses, runs, writes; the exit status. Every failure is one line on standard error.
+  int main(int argc, char** argv);
+
+ protected:
+  virtual void setup(CLI::App& app) = 0;
+  virtual void run() = 0;
+
+  /// The main input (INPUT, standard input by default) or another; remembered for the provenance. An input that
+  /// begins with { or [ is parsed as JSON, as is every input with `must_be_json`.
+  Input read_main_input(bool must_be_json) { return read_input(input_, must_be_json); }
+  Input read_input(const std::string& path, bool must_be_json);
+
+  /// Adds provenance and takes the document as an output; "-" is standard output.
+  void write_document(const std::string& path, Json document);
+  const std::string& main_output() const { return output_; }
+
+  void warn(const std::string& text) const;
+  int threads() const { return threads_; }
+  bool quiet() const { return quiet_; }
+
+  /// Marks an option as one that does not change the result (where outputs go, names of inputs), so that it stays
+  /// out of the provenance.
+  void not_in_provenance(const CLI::Option* option) { silent_options_.push_back(option); }
+
+ private:
+  int parse(int argc, char** argv);
+  std::vector<std::string> result_arguments() const;
+
+  std::string name_;
+  std::string main_kind_;
+  CLI::App app_;
+  std::string input_ = "-";
+  std::string output_ = "-";
+  std::string schema_;
+  bool quiet_ = false;
+  bool without_provenance_ = false;
+  int threads_ = 0;
+  CLI::Option* schema_option_ = nullptr;
+  std::vector<const CLI::Option*> silent_options_;
+  bool standard_input_taken_ = false;
+  std::vector<ProvenanceInput> inputs_;
+  std::vector<std::string> output_paths_;
+  OutputSet outputs_;
+};
+
+/// An option whose text must be FROM:TO:COUNT.
+CLI::Option* add_range_option(CLI::App& app, const std::string& name, std::optional<Range>& value,
+                              const std::string& description);
+/// An option whose text must be LO:HI.
+CLI::Option* add_band_option(CLI::App& app, const std::string& name, std::optional<Range>& value,
+                             const std::string& description);
+/// An option whose text must be a finite number for which `inside` holds; `expected` says so in words.
+CLI::Option* add_number_option(CLI::App& app, const std::string& name, std::optional<double>& value,
+                               const std::string& description, const std::string& expected,
+                               bool (*inside)(double));
+/// An option whose text must be a whole number from `least` on.
+CLI::Option* add_integer_option(CLI::App& app, const std::string& name, std::optional<int>& value, int least,
+                                const std::string& description);
+
+}  // namespace stablecut::cli

@@ -1,0 +1,24 @@
+// Kind `cut`: cutter, cutting coefficients, engagement, and the chart to draw.
+#pragma once
+
+#include <optional>
+
+#include "base/range.h"
+#include "document/json_text.h"
+#include "milling/cutter.h"
+
+namespace stablecut {
+
+struct CutDocument {
+  Cutter cutter;
+  std::optional<Range> speed_rpm;  ///< of the chart
+  std::optional<Range> depth_mm;   ///< of the chart
+};
+
+/// Points along an axis of the chart when nothing says how many.
+inline constexpr int kDefaultChartCount = 64;
+
+/// Throws DataError; also for what is valid in the format but not computed: unequal pitch, a helix angle.
+CutDocument cut_from_json(const Json& document, const Source& source);
+
+}  // namespace stablecut

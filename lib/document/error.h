@@ -1,0 +1,25 @@
+// What is wrong with a document, and where.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace stablecut {
+
+/// Wrong data: the text reads `file: place: value: expected ...`; parts that are empty are left out.
+class DataError : public std::runtime_error {
+ public:
+  DataError(const std::string& file, const std::string& place, const std::string& value,
+            const std::string& expected);
+};
+
+/// A JSON pointer grown by one step, with ~ and / escaped.
+std::string pointer_step(const std::string& pointer, const std::string& step);
+
+/// `line 12`.
+std::string line_place(long line);
+
+/// A value for a message: on one line, control characters replaced, shortened when long.
+std::string shown(std::string value);
+
+}  // namespace stablecut

@@ -1,0 +1,15 @@
+// Kind `modal-table`: non-symmetric complex modes at the tool tip.
+#pragma once
+
+#include "document/json_text.h"
+#include "dynamics/modal_model.h"
+
+namespace stablecut {
+
+/// Reads the modes in any scale. Throws DataError.
+ModalModel modal_table_from_json(const Json& document, const Source& source);
+
+/// The document without `fit` and provenance, modes in the order given and normalised.
+Json modal_table_to_json(const ModalModel& model);
+
+}  // namespace stablecut

@@ -1,0 +1,44 @@
+#include "document/provenance.h"
+
+#include <openssl/evp.h>
+
+#include <array>
+#include <stdexcept>
+
+namespace stablecut {
+
+std::string sha256(const std::string& bytes) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned int length = 0;
+  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1) {
+    throw std::runtime_error("SHA-256 is not available");
+  }
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string text;
+  for (unsigned int i = 0; i < length; ++i) {
+    text += kDigits[digest[i] >> 4];
+    text += kDigits[digest[i] & 15];
+  }
+  return text;
+}
+
+ProvenanceInput provenance_input(const Source& source, const Json& document) {
+  ProvenanceInput input{source.name, sha256(source.text), nullptr};
+  if (document.is_object()) {
+    if (const auto found = document.find("provenance"); found != document.end()) input.from = *found;
+  }
+  return input;
+}
+
+Json provenance(const std::string& tool, const std::string& version, const std::vector<std::string>& arguments,
+                const std::vector<ProvenanceInput>& inputs) {
+  Json list = Json::array();
+  for (const ProvenanceInput& input : inputs) {
+    Json item = {{"name", input.name}, {"sha256", input.sha256}};
+    if (!input.from.is_null()) item["from"] = input.from;
+    list.push_back(std::move(item));
+  }
+  return {{"tool", tool}, {"version", version}, {"arguments", arguments}, {"inputs", std::move(list)}};
+}
+
+}  // namespace stablecut

@@ -1,0 +1,28 @@
+// Columns of numbers as spreadsheets and analysers write them: CSV, TSV, blanks.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "document/json_text.h"
+
+namespace stablecut {
+
+/// One line of fields. Blank lines and lines that begin with # or % are not rows.
+struct TableRow {
+  long line = 0;  ///< 1-based
+  std::vector<std::string> fields;
+};
+
+/// The rows of the text. The separator is the first of tab, semicolon, comma that the first row holds, else blanks.
+/// CRLF, a byte-order mark and quotes around a field are taken off. With semicolons or tabs a decimal comma is
+/// read as a point where the whole field is a number.
+std::vector<TableRow> table_rows(const Source& source);
+
+/// True when no field of the row is a number: a header.
+bool is_header(const TableRow& row);
+
+/// Field `column` as a finite number. Throws DataError naming line, column and what was expected.
+double table_number(const Source& source, const TableRow& row, std::size_t column, const char* expected);
+
+}  // namespace stablecut

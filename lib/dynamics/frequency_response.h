@@ -1,0 +1,44 @@
+// A matrix of frequency responses on common lines, as measured at a tool tip or computed.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stablecut {
+
+/// Displacement, velocity or acceleration over force: m/N, m/(N s), m/(N s2).
+enum class Quantity { kReceptance = 0, kMobility = 1, kAccelerance = 2 };
+
+/// One measured pair of directions: H_ij is the response in direction i to a force in direction j.
+struct FrequencyResponseEntry {
+  std::string response;           ///< direction name: "x", "y", "slope_x", ...
+  std::string reference;          ///< direction name of the force (or moment)
+  Eigen::VectorXcd h;             ///< [lines]
+  Eigen::VectorXd variance;       ///< [lines] E|error|^2 of the complex value, both parts; empty: unknown
+  Eigen::VectorXd coherence;      ///< [lines] 0..1; empty: unknown
+  std::optional<double> averages;              ///< number of averages behind the coherence
+  std::optional<double> response_position_m;   ///< distance from the tip
+  std::optional<double> reference_position_m;  ///< distance from the tip
+};
+
+/// Entries may be missing (unknown); an entry of exact zeros means uncoupled.
+struct FrequencyResponse {
+  Quantity quantity = Quantity::kReceptance;
+  Eigen::VectorXd frequency_hz;  ///< [lines], increasing
+  std::vector<FrequencyResponseEntry> entries;
+
+  /// The entry of a pair of directions, or null.
+  const FrequencyResponseEntry* find(std::string_view response, std::string_view reference) const;
+};
+
+/// The same measurement as displacement over force: H / (i omega)^k. Throws InvalidArgument when a line at
+/// 0 Hz would have to be divided by zero.
+FrequencyResponse to_receptance(FrequencyResponse frf);
+
+/// The lines with lo_hz <= frequency <= hi_hz. May be empty.
+FrequencyResponse within_band(const FrequencyResponse& frf, double lo_hz, double hi_hz);
+
+}  // namespace stablecut

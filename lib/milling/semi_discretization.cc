@@ -1,0 +1,65 @@
+#include "milling/semi_discretization.h"
+
+#include <Eigen/LU>
+#include <unsupported/Eigen/MatrixFunctions>
+
+namespace stablecut {
+
+SemiDiscretizationMap::SemiDiscretizationMap(const TipStructure& structure, const Cutter& cutter,
+                                             double revolutions_per_s, int intervals)
+    : PeriodMap(structure, cutter.tooth_period_s(revolutions_per_s)), interval_s_(period_s() / intervals) {
+  const double step = cutter.pitch_rad() / intervals;
+  for (int i = 0; i < intervals; ++i) {
+    const Eigen::Matrix2d mean = mean_directional_coefficients(cutter, i * step, (i + 1) * step);
+    if (mean.isZero(0)) {
+      mean_coefficient_.emplace_back();
+      continue;
+    }
+    mean_coefficient_.push_back(structure.restrict(mean));
+    samples_.push_back({(i + 0.5) * interval_s_, interval_s_, mean_coefficient_.back()});
+  }
+}
+
+Eigen::MatrixXd SemiDiscretizationMap::monodromy(double depth_m) const {
+  const Eigen::Index d = structure().directions();
+  const Eigen::Index states = 2 * structure().modes();
+  const Eigen::Index size = states + d * static_cast<Eigen::Index>(samples_.size());
+  const double scale = structure().displacement_scale_m;
+  const Eigen::MatrixXd displacement = structure().displacement_of_state();
+  const Eigen::MatrixXd rate_of_force = structure().state_rate_of_force();
+  const Eigen::MatrixXd flight = structure().free_flight(interval_s_);
+
+  // Lambda in real form, [Re -Im; Im Re].
+  Eigen::MatrixXd rate = Eigen::MatrixXd::Zero(states, states);
+  const Eigen::Index n = structure().modes();
+  rate.topLeftCorner(n, n).diagonal() = rate.bottomRightCorner(n, n).diagonal() = structure().lambda.real();
+  rate.bottomLeftCorner(n, n).diagonal() = structure().lambda.imag();
+  rate.topRightCorner(n, n).diagonal() = -structure().lambda.imag();
+
+  // The state now, and the new mean displacements, as functions of the state at the period's start.
+  Eigen::MatrixXd now = Eigen::MatrixXd::Zero(states, size);
+  now.leftCols(states).setIdentity();
+  Eigen::MatrixXd map(size, size);
+  Eigen::Index row = states;
+  for (const Eigen::MatrixXd& coefficient : mean_coefficient_) {
+    if (coefficient.size() == 0) {
+      now = (flight * now).eval();
+      continue;
+    }
+    // (6-35): P = exp(A_i dt) and R = (P - I) A_i^-1 B_i at once, from exp of [A_i B_i; 0 0] dt.
+    const Eigen::MatrixXd force = depth_m * rate_of_force * coefficient;
+    Eigen::MatrixXd augmented = Eigen::MatrixXd::Zero(states + d, states + d);
+    augmented.topLeftCorner(states, states) = interval_s_ * (rate + force * displacement);
+    augmented.topRightCorner(states, d) = -interval_s_ * scale * force;
+    const Eigen::MatrixXd step = augmented.exp();
+    Eigen::MatrixXd next = step.topLeftCorner(states, states) * now;
+    next.middleCols(row, d) += step.topRightCorner(states, d);
+    map.middleRows(row, d) = displacement * (now + next) / (2 * scale);
+    now = std::move(next);
+    row += d;
+  }
+  map.topRows(states) = now;
+  return map;
+}
+
+}  // namespace stablecut

@@ -1,0 +1,73 @@
+#include "milling/semi_discretization.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <catch2/catch.hpp>
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include "milling/milling_fixtures_test.h"
+
+using namespace stablecut;
+using Complex = std::complex<double>;
+
+namespace {
+
+// The textbook scheme, (6-34) to (6-39) to the letter: (m + 1) full complex modal states, one matrix D_i for each
+// interval, their product.
+double textbook_radius(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s, int m,
+                       double depth_m) {
+  const Eigen::Index n = structure.modes();
+  Eigen::VectorXcd lambda(2 * n);
+  lambda << structure.lambda, structure.lambda.conjugate();
+  Eigen::MatrixXcd psi_r(structure.directions(), 2 * n), psi_l(structure.directions(), 2 * n);
+  psi_r << structure.psi_r, structure.psi_r.conjugate();
+  psi_l << structure.psi_l, structure.psi_l.conjugate();
+  const double dt = cutter.tooth_period_s(revolutions_per_s) / m;
+  const double step = cutter.pitch_rad() / m;
+
+  const Eigen::Index size = 2 * n * (m + 1);
+  Eigen::MatrixXcd product = Eigen::MatrixXcd::Identity(size, size);
+  for (int i = 0; i < m; ++i) {
+    const Eigen::MatrixXd kappa =
+        depth_m * structure.restrict(mean_directional_coefficients(cutter, i * step, (i + 1) * step));
+    const Eigen::MatrixXcd b = -psi_l.transpose() * kappa * psi_r;
+    const Eigen::MatrixXcd a = Eigen::MatrixXcd(lambda.asDiagonal()) - b;
+    const Eigen::MatrixXcd p = (a * dt).exp();
+    const Eigen::MatrixXcd r = (p - Eigen::MatrixXcd::Identity(2 * n, 2 * n)) * a.inverse() * b;
+    Eigen::MatrixXcd d = Eigen::MatrixXcd::Zero(size, size);
+    d.topLeftCorner(2 * n, 2 * n) = p;
+    d.block(0, 2 * n * (m - 1), 2 * n, 2 * n) += 0.5 * r;
+    d.block(0, 2 * n * m, 2 * n, 2 * n) += 0.5 * r;
+    d.bottomLeftCorner(2 * n * m, 2 * n * m).setIdentity();
+    product = d * product;
+  }
+  return Eigen::ComplexEigenSolver<Eigen::MatrixXcd>(product, false).eigenvalues().cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+TEST_CASE("the reduced semi-discretization has the textbook matrix's spectral radius") {
+  const ModalModel models[] = {fixtures::oscillator({"x"}), fixtures::oscillator({"x", "y"}),
+                               fixtures::coupled_modes(3, 5)};
+  for (const ModalModel& model : models) {
+    const TipStructure structure = tip_structure(model);
+    for (const auto& [teeth, immersion] : {std::pair{2, 0.25}, std::pair{3, 1.0}, std::pair{1, 0.1}}) {
+      for (const int m : {2, 5, 9}) {
+        const Cutter cutter = fixtures::benchmark_cutter(teeth == 2, immersion, teeth);
+        for (const double depth : {0.2e-3, 3e-3}) {
+          const double expected = textbook_radius(structure, cutter, 150, m, depth);
+          const SemiDiscretizationMap map(structure, cutter, 150, m);
+          INFO(model.modes.size() << " modes, " << teeth << " teeth, m = " << m);
+          CHECK(spectral_radius(map, depth) == Approx(expected).epsilon(1e-10));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("only the intervals in cut carry a delayed displacement") {
+  const TipStructure structure = tip_structure(fixtures::coupled_modes(15, 1));
+  // 60 of 180 degrees are 13.3 of 40 intervals: 14 in cut.
+  const SemiDiscretizationMap map(structure, fixtures::benchmark_cutter(true, 0.25), 150, 40);
+  CHECK(map.monodromy(1e-3).rows() == 30 + 2 * 14);
+}

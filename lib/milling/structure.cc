@@ -1,0 +1,77 @@
+#include "milling/structure.h"
+
+#include <cmath>
+#include <complex>
+
+#include "base/error.h"
+
+namespace stablecut {
+
+Eigen::MatrixXd TipStructure::restrict(const Eigen::Matrix2d& in_x_y) const { return in_x_y(axes, axes); }
+
+Eigen::MatrixXd TipStructure::displacement_of_state() const {
+  Eigen::MatrixXd result(directions(), 2 * modes());
+  result << 2 * psi_r.real(), -2 * psi_r.imag();
+  return result;
+}
+
+Eigen::MatrixXd TipStructure::state_rate_of_force() const {
+  Eigen::MatrixXd result(2 * modes(), directions());
+  result << psi_l.real().transpose(), psi_l.imag().transpose();
+  return result;
+}
+
+Eigen::MatrixXd TipStructure::free_flight(double time_s) const {
+  const Eigen::Index n = modes();
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const std::complex<double> growth = std::exp(lambda[k] * time_s);
+    result(k, k) = result(n + k, n + k) = growth.real();
+    result(n + k, k) = growth.imag();
+    result(k, n + k) = -growth.imag();
+  }
+  return result;
+}
+
+Eigen::MatrixXcd TipStructure::receptance(std::complex<double> s) const {
+  Eigen::MatrixXcd h = Eigen::MatrixXcd::Zero(directions(), directions());
+  for (Eigen::Index k = 0; k < modes(); ++k) {
+    const Eigen::MatrixXcd residue = psi_r.col(k) * psi_l.col(k).transpose();
+    h += residue / (s - lambda[k]) + residue.conjugate() / (s - std::conj(lambda[k]));
+  }
+  return h;
+}
+
+TipStructure tip_structure(const ModalModel& model) {
+  TipStructure structure;
+  std::vector<Eigen::Index> rows;
+  const char* const names[] = {"x", "y"};
+  for (Eigen::Index axis = 0; axis < 2; ++axis) {
+    if (const Eigen::Index row = model.dof(names[axis]); row >= 0) {
+      structure.axes.push_back(axis);
+      rows.push_back(row);
+    }
+  }
+  if (rows.empty()) throw InvalidArgument("dofs: expected x, y or both");
+
+  std::vector<Mode> kept;
+  for (Mode mode : model.modes) {
+    mode.psi_r = mode.psi_r(rows).eval();
+    mode.psi_l = mode.psi_l(rows).eval();
+    if (!mode.psi_r.isZero(0) && !mode.psi_l.isZero(0)) kept.push_back(normalised(mode));
+  }
+  const auto n = static_cast<Eigen::Index>(kept.size());
+  structure.lambda.resize(n);
+  structure.psi_r.resize(structure.directions(), n);
+  structure.psi_l.resize(structure.directions(), n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Mode& mode = kept[static_cast<std::size_t>(k)];
+    structure.lambda[k] = mode.pole();
+    structure.psi_r.col(k) = mode.psi_r;
+    structure.psi_l.col(k) = mode.psi_l;
+  }
+  if (n > 0) structure.displacement_scale_m = structure.psi_r.norm() / std::sqrt(static_cast<double>(n));
+  return structure;
+}
+
+}  // namespace stablecut

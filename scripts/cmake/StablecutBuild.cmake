@@ -1,0 +1,68 @@
+# Build settings that every target shares, and the three kinds of target: room, tool, test.
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug, Release, RelWithDebInfo" FORCE)
+endif()
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+
+option(STABLECUT_WARNINGS_AS_ERRORS "Stop at any compiler warning in the project's own code" OFF)
+option(STABLECUT_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
+include(CTest)
+
+add_library(stablecut_settings INTERFACE)
+target_compile_options(stablecut_settings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+  # GCC 12 sees overlapping copies in its own std::string (bug 105329).
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+  # No contraction into fused multiply-add: the same bytes from every compiler flag set.
+  -ffp-contract=off
+  $<$<BOOL:${STABLECUT_WARNINGS_AS_ERRORS}>:-Werror>)
+target_compile_definitions(stablecut_settings INTERFACE EIGEN_DONT_PARALLELIZE EIGEN_MPL2_ONLY)
+if(STABLECUT_SANITIZE)
+  target_compile_options(stablecut_settings INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all)
+  target_link_options(stablecut_settings INTERFACE -fsanitize=address,undefined)
+endif()
+
+# stablecut_room(NAME SOURCES a.cc ... [LINK rooms and packages] [PRIVATE_LINK packages] [TESTS a_test.cc ...]
+#                [BENCHMARKS b_benchmark.cc ...])
+# A library of lib/NAME, its unit tests in one executable NAME_test and its benchmarks, one executable each.
+function(stablecut_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;LINK;PRIVATE_LINK;TESTS;BENCHMARKS" ${ARGN})
+  add_library(stablecut_${name} STATIC ${ROOM_SOURCES})
+  target_include_directories(stablecut_${name} PUBLIC ${PROJECT_SOURCE_DIR}/lib)
+  target_link_libraries(stablecut_${name} PUBLIC ${ROOM_LINK} PRIVATE stablecut_settings ${ROOM_PRIVATE_LINK})
+  if(BUILD_TESTING AND ROOM_TESTS)
+    add_executable(${name}_test ${ROOM_TESTS})
+    target_link_libraries(${name}_test PRIVATE
+      stablecut_${name} stablecut_settings ${ROOM_PRIVATE_LINK} Catch2::Catch2WithMain)
+    target_compile_definitions(${name}_test PRIVATE STABLECUT_TESTDATA="${PROJECT_SOURCE_DIR}/testdata")
+    add_test(NAME lib.${name} COMMAND ${name}_test)
+  endif()
+  foreach(source ${ROOM_BENCHMARKS})
+    cmake_path(GET source STEM benchmark)
+    add_executable(${benchmark} ${source})
+    target_link_libraries(${benchmark} PRIVATE stablecut_${name} stablecut_settings)
+  endforeach()
+endfunction()
+
+# stablecut_tool(NAME LINK libraries): the executable of apps/NAME, from its main.cpp.
+function(stablecut_tool name)
+  cmake_parse_arguments(TOOL "" "" "LINK" ${ARGN})
+  add_executable(${name} main.cpp)
+  target_link_libraries(${name} PRIVATE stablecut_settings stablecut_cli ${TOOL_LINK})
+  install(TARGETS ${name})
+  install(FILES ${name}.1 TYPE MAN RENAME man1/${name}.1)
+endfunction()
+
+# stablecut_script_test(NAME SCRIPT): a shell script that exits 0 when what it checks holds and 77 to skip. It
+# finds the tools on its PATH, and the checkout in SOURCE.
+function(stablecut_script_test name script)
+  add_test(NAME ${name} COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/${script})
+  set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77 ENVIRONMENT
+    "SOURCE=${PROJECT_SOURCE_DIR};PATH=${CMAKE_RUNTIME_OUTPUT_DIRECTORY}:$ENV{PATH}")
+endfunction()
