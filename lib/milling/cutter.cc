@@ -75,6 +75,19 @@ Eigen::Matrix2d directional_coefficients(const Cutter& cutter, const EngagedArc&
   return combine(cutter, sc, ss, cc);
 }
 
+DirectionalFactors directional_factors(const Cutter& cutter, const EngagedArc& arc, double phase_rad) {
+  if (arc.last_tooth - arc.first_tooth > 1) {
+    return {directional_coefficients(cutter, arc, phase_rad), Eigen::Matrix2d::Identity()};
+  }
+  // (6-2) and (6-4): h = s x + c y, and the force of a chip of that thickness.
+  const double phi = phase_rad + arc.first_tooth * cutter.pitch_rad();
+  const double s = std::sin(phi), c = std::cos(phi);
+  const Eigen::Matrix2d feed = Eigen::Rotation2Dd(cutter.feed_angle_rad).toRotationMatrix();
+  const Eigen::Vector2d force(-c * cutter.kt_n_per_m2 - s * cutter.kr_n_per_m2,
+                              s * cutter.kt_n_per_m2 - c * cutter.kr_n_per_m2);
+  return {feed * force, Eigen::RowVector2d(s, c) * feed.transpose()};
+}
+
 Eigen::Matrix2d mean_directional_coefficients(const Cutter& cutter, double from_rad, double to_rad) {
   const double pitch = cutter.pitch_rad();
   double sc = 0, ss = 0, cc = 0;

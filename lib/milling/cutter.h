@@ -43,6 +43,15 @@ std::vector<EngagedArc> engaged_arcs(const Cutter& cutter);
 /// inside).
 Eigen::Matrix2d directional_coefficients(const Cutter& cutter, const EngagedArc& arc, double phase_rad);
 
+/// A = drive * sense at a phase of the arc, in the structure's frame: the force is depth * drive * (sense * (r -
+/// r_delayed)). One tooth in cut feels the chip thickness only, so its `sense` is one row; several need both
+/// directions.
+struct DirectionalFactors {
+  Eigen::Matrix2Xd drive;                     ///< [2 x 1 or 2] N/m2
+  Eigen::Matrix<double, Eigen::Dynamic, 2> sense;  ///< [1 or 2 x 2]
+};
+DirectionalFactors directional_factors(const Cutter& cutter, const EngagedArc& arc, double phase_rad);
+
 /// The exact mean of A over the phases [from, to], as (6-29) asks; teeth may enter or leave inside.
 Eigen::Matrix2d mean_directional_coefficients(const Cutter& cutter, double from_rad, double to_rad);
 

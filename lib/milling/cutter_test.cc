@@ -1,6 +1,7 @@
 #include "milling/cutter.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -94,4 +95,18 @@ TEST_CASE("a feed angle turns the coefficients as a tensor") {
   CHECK(turned(1, 1) == Approx(straight(0, 0)));
   CHECK(turned(0, 0) == Approx(straight(1, 1)));
   CHECK(turned(0, 1) == Approx(-straight(1, 0)));
+}
+
+TEST_CASE("the factors of the directional coefficients multiply to them") {
+  for (const int teeth : {1, 2, 3, 6}) {
+    Cutter cutter = cutter_with(teeth, true, 0.8);
+    cutter.feed_angle_rad = 0.3;
+    for (const auto& arc : engaged_arcs(cutter)) {
+      const double phase = 0.3 * arc.from_rad + 0.7 * arc.to_rad;
+      const auto factors = directional_factors(cutter, arc, phase);
+      const Eigen::Matrix2d whole = directional_coefficients(cutter, arc, phase);
+      CHECK((factors.drive * factors.sense - whole).norm() < 1e-14 * whole.norm());
+      CHECK(factors.sense.rows() == std::min(2, arc.last_tooth - arc.first_tooth));
+    }
+  }
 }

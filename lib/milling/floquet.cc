@@ -1,10 +1,10 @@
 #include "milling/floquet.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <cmath>
-#include <limits>
 
 #include "base/units.h"
+#include "milling/multipliers.h"
 
 namespace stablecut {
 namespace {
@@ -14,33 +14,43 @@ using Complex = std::complex<double>;
 // A real multiplier's imaginary part is zero but for rounding.
 constexpr double kRealMultiplier = 1e-7;
 
+// By inverse iteration from a start without preference, next to the eigenvalue.
+Eigen::VectorXcd eigenvector(const Eigen::MatrixXd& matrix, Complex value) {
+  Eigen::MatrixXcd shifted = matrix.cast<Complex>();
+  shifted.diagonal().array() -= value * (1 + 1e-10);
+  const Eigen::PartialPivLU<Eigen::MatrixXcd> inverse(shifted);
+  Eigen::VectorXcd vector = Eigen::VectorXcd::Ones(matrix.rows());
+  for (int iteration = 0; iteration < 3; ++iteration) vector = inverse.solve(vector).normalized();
+  return vector;
+}
+
 }  // namespace
 
 double spectral_radius(const PeriodMap& map, double depth_m) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(map.monodromy(depth_m), false);
-  if (solver.info() != Eigen::Success) return std::numeric_limits<double>::quiet_NaN();
-  return solver.eigenvalues().cwiseAbs().maxCoeff();
+  return eigenvalues(map.monodromy(depth_m)).cwiseAbs().maxCoeff();
 }
 
 CriticalMultiplier critical_multiplier(const PeriodMap& map, double depth_m) {
   const TipStructure& structure = map.structure();
   const Eigen::Index d = structure.directions();
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(map.monodromy(depth_m), true);
+  const Eigen::MatrixXd monodromy = map.monodromy(depth_m);
+  const Eigen::VectorXcd multipliers = eigenvalues(monodromy);
   Eigen::Index largest = 0;
-  solver.eigenvalues().cwiseAbs().maxCoeff(&largest);
+  multipliers.cwiseAbs().maxCoeff(&largest);
 
   CriticalMultiplier critical;
-  const Complex mu = critical.value = solver.eigenvalues()[largest];
+  const Complex mu = critical.value = multipliers[largest];
   if (std::abs(mu.imag()) <= kRealMultiplier * std::abs(mu)) {
     critical.kind = mu.real() < 0 ? Instability::kFlip : Instability::kFold;
   }
 
-  // Over the period that follows, r = mu r_delayed: f = depth * coefficient * (mu - 1) r_delayed.
-  const Eigen::VectorXcd state = solver.eigenvectors().col(largest);
+  // Over the period that follows, u = mu u_delayed: f = depth * drive * (mu - 1) u_delayed.
+  const Eigen::VectorXcd state = eigenvector(monodromy, mu);
   std::vector<Eigen::VectorXcd> force;
-  for (std::size_t i = 0; i < map.samples().size(); ++i) {
-    const auto delayed = state.segment(2 * structure.modes() + static_cast<Eigen::Index>(i) * d, d);
-    force.push_back(map.samples()[i].weight_s * (map.samples()[i].coefficient * delayed));
+  Eigen::Index row = 2 * structure.modes();
+  for (const ForceSample& sample : map.samples()) {
+    force.push_back(sample.weight_s * (sample.drive * state.segment(row, sample.drive.cols())));
+    row += sample.drive.cols();
   }
   const Complex exponent = std::log(mu) / map.period_s();
   const double highest = structure.lambda.cwiseAbs().maxCoeff();

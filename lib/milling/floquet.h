@@ -9,15 +9,16 @@
 
 namespace stablecut {
 
-/// A time in the tooth period at which the cutting force f = depth * coefficient * (r - r_delayed) is sampled.
+/// A time in the tooth period at which the cutting force f = depth * drive * (u - u_delayed) is sampled, where u is
+/// what the cut senses there: the tip displacement, or a single tooth's chip thickness.
 struct ForceSample {
   double time_s = 0;
-  double weight_s = 0;          ///< quadrature weight over the period
-  Eigen::MatrixXd coefficient;  ///< [directions x directions] N/m2
+  double weight_s = 0;    ///< quadrature weight over the period
+  Eigen::MatrixXd drive;  ///< [directions x sensed], N/m2
 };
 
-/// One tooth period at one speed. The state is the real modal state (Re q, Im q), then for each force sample the
-/// tip displacement one period before, in units of the structure's displacement scale.
+/// One tooth period at one speed. The state is the real modal state (Re q, Im q), then for each force sample what
+/// was sensed one period before, in units of the structure's displacement scale.
 class PeriodMap {
  public:
   PeriodMap(const TipStructure& structure, double period_s) : structure_(structure), period_s_(period_s) {}

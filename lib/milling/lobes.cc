@@ -12,11 +12,11 @@
 namespace stablecut {
 namespace {
 
-constexpr double kConverged = 1e-9;   // wanted change of the spectral radius when points are added
+constexpr double kConverged = 1e-8;   // wanted change of the spectral radius when points are added
 constexpr int kMorePoints = 3;        // how many are added to see it
 constexpr int kMostPoints = 240;      // per arc; then the error is what it is
 constexpr int kRungs = 64;            // least number of steps on the way to the largest depth
-constexpr double kDepthTolerance = 1e-10;
+constexpr double kDepthTolerance = 1e-9;
 
 // Enough points to be near convergence: a polynomial follows the fastest mode's turn over half an arc.
 int first_guess(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s) {

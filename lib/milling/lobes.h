@@ -41,7 +41,7 @@ struct StabilityLimit {
   CriticalMultiplier critical;
 };
 
-/// The lowest depth in (0, largest_depth_m] at which the cut loses stability, to 1e-10 of the largest depth, or
+/// The lowest depth in (0, largest_depth_m] at which the cut loses stability, to 1e-9 of the largest depth, or
 /// nothing. Searched on a ladder of depths, `known_depths_m` (increasing, with their radii) among them; between
 /// rungs a hump that may reach 1 is climbed. A hump narrower than a rung that shows at neither end is missed.
 std::optional<StabilityLimit> lowest_limit(const PeriodMap& map, double largest_depth_m,

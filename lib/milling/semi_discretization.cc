@@ -15,7 +15,7 @@ SemiDiscretizationMap::SemiDiscretizationMap(const TipStructure& structure, cons
       mean_coefficient_.emplace_back();
       continue;
     }
-    mean_coefficient_.push_back(structure.restrict(mean));
+    mean_coefficient_.push_back(mean(structure.axes, structure.axes));
     samples_.push_back({(i + 0.5) * interval_s_, interval_s_, mean_coefficient_.back()});
   }
 }

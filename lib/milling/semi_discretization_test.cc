@@ -28,8 +28,8 @@ double textbook_radius(const TipStructure& structure, const Cutter& cutter, doub
   const Eigen::Index size = 2 * n * (m + 1);
   Eigen::MatrixXcd product = Eigen::MatrixXcd::Identity(size, size);
   for (int i = 0; i < m; ++i) {
-    const Eigen::MatrixXd kappa =
-        depth_m * structure.restrict(mean_directional_coefficients(cutter, i * step, (i + 1) * step));
+    const Eigen::Matrix2d mean = mean_directional_coefficients(cutter, i * step, (i + 1) * step);
+    const Eigen::MatrixXd kappa = depth_m * mean(structure.axes, structure.axes);
     const Eigen::MatrixXcd b = -psi_l.transpose() * kappa * psi_r;
     const Eigen::MatrixXcd a = Eigen::MatrixXcd(lambda.asDiagonal()) - b;
     const Eigen::MatrixXcd p = (a * dt).exp();

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <complex>
+#include <cstddef>
 #include <vector>
 
 #include "base/units.h"
@@ -46,8 +47,7 @@ SpectralMap::SpectralMap(const TipStructure& structure, const Cutter& cutter, do
   const double angular_speed = kTwoPi * revolutions_per_s;
   const GaussRule rule = gauss_legendre(points_per_arc);
   const Eigen::MatrixXd transform = legendre_from_nodes(rule);
-  const Eigen::Index points = rule.node.size();
-  const Eigen::Index d = structure.directions();
+  const auto points = static_cast<std::size_t>(points_per_arc);
   const Eigen::Index n = structure.modes();
 
   // Time counts from the first arc's start.
@@ -56,82 +56,90 @@ SpectralMap::SpectralMap(const TipStructure& structure, const Cutter& cutter, do
     const double origin = arcs.empty() ? arc.from_rad : arcs.front().arc.from_rad;
     arcs.push_back({arc, (arc.from_rad - origin) / angular_speed, (arc.to_rad - arc.from_rad) / angular_speed});
   }
+  std::vector<Eigen::MatrixXd> sense;    // of each node, [sensed x directions]
+  std::vector<Eigen::Index> first = {0};  // of each node among all that is sensed
   for (const TimedArc& arc : arcs) {
-    for (Eigen::Index i = 0; i < points; ++i) {
+    for (Eigen::Index i = 0; i < rule.node.size(); ++i) {
       const double share = (rule.node[i] + 1) / 2;
       const double phase = arc.arc.from_rad + share * (arc.arc.to_rad - arc.arc.from_rad);
+      DirectionalFactors factors = directional_factors(cutter, arc.arc, phase);
+      if (structure.directions() == 1 && factors.sense.rows() > 1) {
+        // One direction senses one displacement.
+        factors.drive = factors.drive.col(structure.axes[0]).eval();
+        factors.sense = factors.sense.row(structure.axes[0]).eval();
+      }
       samples_.push_back({arc.start_s + share * arc.length_s, rule.weight[i] / 2 * arc.length_s,
-                          structure.restrict(directional_coefficients(cutter, arc.arc, phase))});
+                          factors.drive(structure.axes, Eigen::all)});
+      sense.push_back(factors.sense(Eigen::all, structure.axes));
+      first.push_back(first.back() + sense.back().rows());
     }
   }
 
-  const Eigen::Index rows = d * static_cast<Eigen::Index>(samples_.size());
-  displacement_of_state_.resize(rows, 2 * n);
-  displacement_of_force_ = Eigen::MatrixXd::Zero(rows, rows);
-  final_state_of_force_.resize(2 * n, rows);
+  const Eigen::Index rows = first.back();
+  sensed_of_state_.resize(rows, 2 * n);
+  sensed_of_drive_ = Eigen::MatrixXd::Zero(rows, rows);
+  final_state_of_drive_.resize(2 * n, rows);
   final_state_of_state_ = structure.free_flight(period_s());
 
   for (Eigen::Index k = 0; k < n; ++k) {
     const Complex lambda = structure.lambda[k];
-    const Eigen::VectorXcd psi_r = structure.psi_r.col(k);
-    const Eigen::MatrixXcd residue = psi_r * structure.psi_l.col(k).transpose();
+    // What the nodes sense of the mode, and how they drive it.
+    Eigen::VectorXcd observed(rows), driven(rows);
     for (std::size_t i = 0; i < samples_.size(); ++i) {
-      const Eigen::VectorXcd value = 2.0 * std::exp(lambda * samples_[i].time_s) * psi_r;
-      displacement_of_state_.block(static_cast<Eigen::Index>(i) * d, k, d, 1) = value.real();
-      displacement_of_state_.block(static_cast<Eigen::Index>(i) * d, n + k, d, 1) = -value.imag();
+      observed.segment(first[i], first[i + 1] - first[i]) = 2.0 * (sense[i] * structure.psi_r.col(k));
+      driven.segment(first[i], first[i + 1] - first[i]) =
+          samples_[i].drive.transpose() * structure.psi_l.col(k);
+      const Complex growth = std::exp(lambda * samples_[i].time_s);
+      const auto value = growth * observed.segment(first[i], first[i + 1] - first[i]);
+      sensed_of_state_.col(k).segment(first[i], first[i + 1] - first[i]) = value.real();
+      sensed_of_state_.col(n + k).segment(first[i], first[i + 1] - first[i]) = -value.imag();
     }
     for (std::size_t b = 0; b < arcs.size(); ++b) {
       const Eigen::MatrixXcd response = mode_response(lambda, arcs[b].length_s, rule, transform);
       const double end_s = arcs[b].start_s + arcs[b].length_s;
       const Complex to_final = std::exp(lambda * (period_s() - end_s));
-      const Eigen::Index first_row = static_cast<Eigen::Index>(b) * points;
-      for (Eigen::Index j = 0; j < points; ++j) {
-        const Eigen::Index column = (first_row + j) * d;
-        for (Eigen::Index i = 0; i < points; ++i) {
-          displacement_of_force_.block((first_row + i) * d, column, d, d) += 2 * (response(i, j) * residue).real();
+      const std::size_t arc_first = b * points, arc_last = arc_first + points;
+      for (std::size_t j = arc_first; j < arc_last; ++j) {
+        const auto at_end = response(points_per_arc, static_cast<Eigen::Index>(j - arc_first));
+        // Nodes of this arc respond inside it; those of later arcs see what is left of the state at its end.
+        for (std::size_t i = arc_first; i < samples_.size(); ++i) {
+          const Complex left = i < arc_last ? response(static_cast<Eigen::Index>(i - arc_first),
+                                                       static_cast<Eigen::Index>(j - arc_first))
+                                            : at_end * std::exp(lambda * (samples_[i].time_s - end_s));
+          for (Eigen::Index column = first[j]; column < first[j + 1]; ++column) {
+            for (Eigen::Index row = first[i]; row < first[i + 1]; ++row) {
+              sensed_of_drive_(row, column) += (left * observed[row] * driven[column]).real();
+            }
+          }
         }
-        // Later arcs see what is left of the state at this arc's end.
-        for (auto later = static_cast<std::size_t>(first_row + points); later < samples_.size(); ++later) {
-          const Complex left = response(points, j) * std::exp(lambda * (samples_[later].time_s - end_s));
-          displacement_of_force_.block(static_cast<Eigen::Index>(later) * d, column, d, d) +=
-              2 * (left * residue).real();
+        for (Eigen::Index column = first[j]; column < first[j + 1]; ++column) {
+          const Complex state = to_final * at_end * driven[column];
+          final_state_of_drive_(k, column) = state.real();
+          final_state_of_drive_(n + k, column) = state.imag();
         }
-        const Eigen::VectorXcd state = to_final * response(points, j) * structure.psi_l.col(k);
-        final_state_of_force_.block(k, column, 1, d) = state.real().transpose();
-        final_state_of_force_.block(n + k, column, 1, d) = state.imag().transpose();
       }
     }
   }
 }
 
 Eigen::MatrixXd SpectralMap::monodromy(double depth_m) const {
-  const Eigen::Index d = structure().directions();
   const Eigen::Index states = final_state_of_state_.rows();
-  const Eigen::Index rows = displacement_of_force_.rows();
+  const Eigen::Index rows = sensed_of_drive_.rows();
   const double scale = structure().displacement_scale_m;
 
-  // Columns times the force per displacement difference, depth * A at each node.
-  const auto times_force = [&](const Eigen::MatrixXd& matrix) {
-    Eigen::MatrixXd result(matrix.rows(), rows);
-    for (Eigen::Index i = 0; i < rows / d; ++i) {
-      result.middleCols(i * d, d).noalias() =
-          matrix.middleCols(i * d, d) * (depth_m * samples_[static_cast<std::size_t>(i)].coefficient);
-    }
-    return result;
-  };
-  // r = E q + W F (r - r_delayed)  =>  r - r_delayed = (I - W F)^-1 (E q - r_delayed).
+  // u = E q + depth W (u - u_delayed)  =>  u - u_delayed = (I - depth W)^-1 (E q - u_delayed).
   const Eigen::PartialPivLU<Eigen::MatrixXd> implicit(Eigen::MatrixXd::Identity(rows, rows) -
-                                                      times_force(displacement_of_force_));
+                                                      depth_m * sensed_of_drive_);
   Eigen::MatrixXd difference(rows, states + rows);
-  difference.leftCols(states) = displacement_of_state_ / scale;
+  difference.leftCols(states) = sensed_of_state_ / scale;
   difference.rightCols(rows) = -Eigen::MatrixXd::Identity(rows, rows);
   difference = implicit.solve(difference).eval();
 
   Eigen::MatrixXd map(states + rows, states + rows);
-  map.topRows(states).noalias() = (scale * times_force(final_state_of_force_)) * difference;
+  map.topRows(states).noalias() = (scale * depth_m) * final_state_of_drive_ * difference;
   map.topLeftCorner(states, states) += final_state_of_state_;
   map.bottomRows(rows) = difference;
-  map.bottomRightCorner(rows, rows) += Eigen::MatrixXd::Identity(rows, rows);
+  map.bottomRightCorner(rows, rows).diagonal().array() += 1;
   return map;
 }
 

@@ -18,14 +18,14 @@ class SpectralMap : public PeriodMap {
   /// `points_per_arc` >= 1. The structure must outlive the map.
   SpectralMap(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s, int points_per_arc);
 
-  /// [2 modes + directions * points, square].
+  /// [2 modes + points (twice where several teeth cut and both directions move), square].
   Eigen::MatrixXd monodromy(double depth_m) const override;
 
  private:
-  Eigen::MatrixXd displacement_of_state_;  // at the nodes, from the state at the period's start
-  Eigen::MatrixXd displacement_of_force_;  // at the nodes, from the force at the nodes
-  Eigen::MatrixXd final_state_of_force_;
+  Eigen::MatrixXd sensed_of_state_;  // at the nodes, from the state at the period's start
+  Eigen::MatrixXd sensed_of_drive_;  // at the nodes, from the nodes' u - u_delayed at unit depth
   Eigen::MatrixXd final_state_of_state_;
+  Eigen::MatrixXd final_state_of_drive_;
 };
 
 }  // namespace stablecut

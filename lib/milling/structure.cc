@@ -7,8 +7,6 @@
 
 namespace stablecut {
 
-Eigen::MatrixXd TipStructure::restrict(const Eigen::Matrix2d& in_x_y) const { return in_x_y(axes, axes); }
-
 Eigen::MatrixXd TipStructure::displacement_of_state() const {
   Eigen::MatrixXd result(directions(), 2 * modes());
   result << 2 * psi_r.real(), -2 * psi_r.imag();

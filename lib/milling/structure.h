@@ -20,8 +20,6 @@ struct TipStructure {
   Eigen::Index modes() const { return lambda.size(); }
   Eigen::Index directions() const { return static_cast<Eigen::Index>(axes.size()); }
 
-  /// The block of a 2x2 matrix in x and y that concerns the directions that can move.
-  Eigen::MatrixXd restrict(const Eigen::Matrix2d& in_x_y) const;
   /// Tip displacement [directions x 2 modes] of the real state (Re q, Im q), m.
   Eigen::MatrixXd displacement_of_state() const;
   /// Rate of the real state per unit force, [2 modes x directions], 1/(N s).
