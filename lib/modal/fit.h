@@ -1,0 +1,46 @@
+// From measured receptances to a table of modes, without any guess by the user.
+//
+// Vector fitting from start poles spread over the band finds candidate poles; statistics decide which of them are modes
+// (a mode stays when taking it away costs more likelihood than its parameters are worth, a mode is added where the
+// residual asks for one); all are refined together by maximum likelihood with rank-1 residues.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "dynamics/frequency_response.h"
+#include "dynamics/modal_model.h"
+
+namespace stablecut {
+
+struct FitOptions {
+  std::optional<int> modes;  ///< how many, instead of finding out; split over independent groups by significance
+  Progress progress;
+};
+
+/// How well one measured curve is met.
+struct CurveFit {
+  std::string response, reference;
+  double relative_error = 0;      ///< |model - h| / |h|, norms over the lines
+  double reduced_chi_square = 0;  ///< mean |model - h|^2 / variance, 1 when noise is all that is left
+};
+
+struct ModalFit {
+  ModalModel model;  ///< modes by frequency; out of band marked
+  std::vector<CurveFit> curves;
+  double relative_error = 0;  ///< over all curves together
+  double reduced_chi_square = 0;
+  bool variance_given = false;  ///< the noise came with the measurement; otherwise it was estimated from it
+  /// Relative model error that had to be assumed on top of the noise for the residual to be explained; 0: none.
+  double model_error = 0;
+  bool converged = false;
+  std::vector<std::string> warnings;
+};
+
+/// `measured` must be a receptance with at least 8 lines above 0 Hz. Throws InvalidArgument for data that cannot be
+/// fitted, NoAnswer when no mode stands out.
+ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options = {});
+
+}  // namespace stablecut

@@ -1,0 +1,54 @@
+#include "modal/fit_data.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace stablecut {
+
+std::vector<DirectionGroup> independent_groups(const FrequencyResponse& frf) {
+  const std::vector<std::string> names = direction_names(frf);
+  const auto index = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  };
+  // Union of direction labels over the entries that are not zero.
+  std::vector<std::size_t> label(names.size());
+  std::iota(label.begin(), label.end(), std::size_t{0});
+  for (const auto& entry : frf.entries) {
+    if (entry.h.isZero(0)) continue;
+    const std::size_t from = label[index(entry.response)], to = label[index(entry.reference)];
+    std::replace(label.begin(), label.end(), from, to);
+  }
+  std::vector<DirectionGroup> groups;
+  std::vector<std::size_t> group_label;
+  for (std::size_t e = 0; e < frf.entries.size(); ++e) {
+    if (frf.entries[e].h.isZero(0)) continue;
+    const std::size_t wanted = label[index(frf.entries[e].response)];
+    const auto found = std::find(group_label.begin(), group_label.end(), wanted);
+    if (found == group_label.end()) {
+      group_label.push_back(wanted);
+      groups.push_back({{e}});
+    } else {
+      groups[static_cast<std::size_t>(found - group_label.begin())].entries.push_back(e);
+    }
+  }
+  return groups;
+}
+
+std::vector<std::string> direction_names(const FrequencyResponse& frf) {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  for (const char* usual : {"x", "y", "z"}) {
+    for (const auto& entry : frf.entries) {
+      if (entry.response == usual || entry.reference == usual) add(usual);
+    }
+  }
+  for (const auto& entry : frf.entries) {
+    add(entry.response);
+    add(entry.reference);
+  }
+  return names;
+}
+
+}  // namespace stablecut

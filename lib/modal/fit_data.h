@@ -1,0 +1,41 @@
+// The measured curves as the fit sees them: receptances on common lines, weighted by their noise.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "dynamics/frequency_response.h"
+
+namespace stablecut {
+
+/// One measured pair of directions.
+struct Curve {
+  Eigen::Index response = 0;   ///< row of psi_r
+  Eigen::Index reference = 0;  ///< row of psi_l
+  Eigen::VectorXcd h;          ///< [lines] m/N
+  Eigen::VectorXd weight;      ///< [lines] 1 / variance of the complex value
+};
+
+struct FitData {
+  Eigen::VectorXcd s;  ///< [lines] i omega, rad/s
+  Eigen::Index dofs = 0;
+  std::vector<Curve> curves;
+
+  Eigen::Index lines() const { return s.size(); }
+  /// Number of real values measured.
+  double values() const { return 2.0 * static_cast<double>(lines()) * static_cast<double>(curves.size()); }
+};
+
+/// Directions that only exact zeros (or nothing) connect are independent structures: each group is fitted alone.
+struct DirectionGroup {
+  std::vector<std::size_t> entries;  ///< of the frequency response, those that are not all zeros
+};
+
+/// The groups in the order of their first entry.
+std::vector<DirectionGroup> independent_groups(const FrequencyResponse& frf);
+
+/// Direction names in the order x, y, z, then as they come.
+std::vector<std::string> direction_names(const FrequencyResponse& frf);
+
+}  // namespace stablecut

@@ -1,0 +1,32 @@
+// Joint maximum-likelihood refinement of rank-1 non-symmetric modes (thesis 6.3.2, weighted by the noise).
+#pragma once
+
+#include <vector>
+
+#include "dynamics/modal_model.h"
+#include "modal/fit_data.h"
+
+namespace stablecut {
+
+struct RefinedModes {
+  std::vector<Mode> modes;
+  double chi_square = 0;   ///< sum over lines and curves of |model - h|^2 / variance
+  bool converged = false;
+  /// Loss in chi-square, to second order, when the mode's residue is taken away and all else adapts: [modes].
+  Eigen::VectorXd removal_loss;
+  /// Standard deviations of frequency (Hz) and damping ratio for the noise that the weights say: [modes].
+  Eigen::VectorXd frequency_std_hz, damping_std;
+};
+
+/// Minimises the weighted squared error of all curves at once over poles and vectors, from the given modes. Each
+/// mode is described without redundancy: the logarithms of decay rate and frequency, psi_r with its largest
+/// component fixed, psi_l. At most `iterations` steps of Levenberg-Marquardt with analytic derivatives.
+RefinedModes refine_modes(const FitData& data, const std::vector<Mode>& start, int iterations);
+
+/// The model on the data's lines for one curve.
+Eigen::VectorXcd curve_of(const std::vector<Mode>& modes, const Curve& curve, const Eigen::VectorXcd& s);
+
+/// Sum over lines and curves of |model - h|^2 / variance.
+double chi_square_of(const FitData& data, const std::vector<Mode>& modes);
+
+}  // namespace stablecut

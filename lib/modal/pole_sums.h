@@ -1,0 +1,46 @@
+// Sums over the lines that a fit with poles needs, without forming its Jacobian.
+//
+// With phi_a(w) = 1 / (i w - a) and real weights, partial fractions give
+//   sum w conj(phi_a) phi_b = -(S(b) + conj S(a)) / (b + conj a),   S(a) = sum w / (i w - a),
+// and its derivatives in b and conj a give the same sums with phi^2. All poles lie in the left half plane, so that
+// b + conj a is never zero. Gram matrices of n poles cost n sums over the lines instead of n^2.
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+
+namespace stablecut {
+
+/// Values of 1 / (s - a) and 1 / (s - conj a) on the lines, for poles a.
+struct PoleValues {
+  PoleValues(const Eigen::VectorXcd& s, const Eigen::VectorXcd& poles);
+
+  Eigen::VectorXcd pole;       ///< [poles] rad/s, negative real parts
+  Eigen::MatrixXcd phi;        ///< [lines x poles]
+  Eigen::MatrixXcd phi_conj;   ///< [lines x poles], of the conjugate poles
+};
+
+/// Weighted inner products sum w conj(g_a) g_b over the lines, where g is phi or phi^2 (order 1 or 2) of a pole or of
+/// its conjugate.
+class PoleSums {
+ public:
+  /// `weight` [lines], not negative. Order 2 needs `with_squares`.
+  PoleSums(const PoleValues& values, const Eigen::VectorXd& weight, bool with_squares);
+
+  struct Function {
+    Eigen::Index pole = 0;
+    bool conjugate = false;
+    int order = 1;
+  };
+  std::complex<double> inner(const Function& a, const Function& b) const;
+
+ private:
+  std::complex<double> pole_of(const Function& g) const;
+  std::complex<double> sum(const Function& g, int order) const;
+
+  const PoleValues& values_;
+  Eigen::VectorXcd first_, first_conj_;    // S
+  Eigen::VectorXcd second_, second_conj_;  // dS/da
+};
+
+}  // namespace stablecut

@@ -1,0 +1,207 @@
+#include "modal/vector_fitting.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "modal/pole_sums.h"
+
+namespace stablecut {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double kRidge = 1e-12;          // of each diagonal entry of a Gram matrix
+constexpr double kStartDamping = 0.01;    // of starting poles
+constexpr double kRealPoleDamping = 0.7;  // what a real pole becomes
+
+// Real basis of a conjugate pair: column 2k is phi + phi', column 2k + 1 is i phi - i phi', so that the coefficients are
+// the real and imaginary part of the residue. Functions of the weights c (complex allowed): sum c conj(x) y.
+Eigen::MatrixXd real_gram(const Eigen::MatrixXcd& complex_gram) {
+  const Eigen::Index n = complex_gram.rows() / 2;  // [phi; phi'] blocks
+  Eigen::MatrixXd gram(2 * n, 2 * n);
+  const Complex i(0, 1);
+  for (Eigen::Index a = 0; a < n; ++a) {
+    for (Eigen::Index b = 0; b < n; ++b) {
+      const Complex pp = complex_gram(a, b), pc = complex_gram(a, n + b);
+      const Complex cp = complex_gram(n + a, b), cc = complex_gram(n + a, n + b);
+      gram(2 * a, 2 * b) = (pp + pc + cp + cc).real();
+      gram(2 * a, 2 * b + 1) = (i * (pp - pc + cp - cc)).real();
+      gram(2 * a + 1, 2 * b) = (-i * (pp + pc - cp - cc)).real();
+      gram(2 * a + 1, 2 * b + 1) = (pp - pc - cp + cc).real();
+    }
+  }
+  return gram;
+}
+
+// sum c conj(x_a): from [phi, phi'] sums.
+Eigen::VectorXd real_projection(const Eigen::VectorXcd& phi, const Eigen::VectorXcd& phi_conj) {
+  Eigen::VectorXd result(2 * phi.size());
+  for (Eigen::Index a = 0; a < phi.size(); ++a) {
+    result[2 * a] = (phi[a] + phi_conj[a]).real();
+    result[2 * a + 1] = (phi[a] - phi_conj[a]).imag();
+  }
+  return result;
+}
+
+// sum c conj(phi_a) phi_b over poles and conjugate poles for complex weights c, by partial fractions:
+// -(S_c(b) + conj S_cbar(a)) / (b + conj a).
+Eigen::MatrixXcd weighted_gram(const PoleValues& values, const Eigen::VectorXcd& c) {
+  const Eigen::Index n = values.pole.size();
+  Eigen::VectorXcd pole(2 * n), sum(2 * n), sum_of_conjugate(2 * n);
+  pole << values.pole, values.pole.conjugate();
+  sum << values.phi.transpose() * c, values.phi_conj.transpose() * c;
+  sum_of_conjugate << values.phi.transpose() * c.conjugate(), values.phi_conj.transpose() * c.conjugate();
+  Eigen::MatrixXcd gram(2 * n, 2 * n);
+  for (Eigen::Index a = 0; a < 2 * n; ++a) {
+    for (Eigen::Index b = 0; b < 2 * n; ++b) {
+      gram(a, b) = -(sum[b] + std::conj(sum_of_conjugate[a])) / (pole[b] + std::conj(pole[a]));
+    }
+  }
+  return gram;
+}
+
+// Symmetric positive system, scaled to a unit diagonal, with a small ridge.
+struct ScaledSystem {
+  explicit ScaledSystem(const Eigen::MatrixXd& matrix) {
+    scale = matrix.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
+    scaled.diagonal().array() += kRidge;
+    factor.compute(scaled);
+  }
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const {
+    return scale.asDiagonal() * factor.solve(scale.asDiagonal() * right);
+  }
+  Eigen::VectorXd scale;
+  Eigen::LDLT<Eigen::MatrixXd> factor;
+};
+
+}  // namespace
+
+Eigen::VectorXcd starting_poles(const FitData& data, Eigen::Index pairs) {
+  const double lo = std::max(data.s[0].imag(), 1e-3 * data.s[data.lines() - 1].imag());
+  const double hi = data.s[data.lines() - 1].imag();
+  // How far the curves turn from line to line, beyond what noise turns them.
+  Eigen::VectorXd turned = Eigen::VectorXd::Zero(data.lines());
+  for (Eigen::Index i = 1; i < data.lines(); ++i) {
+    double turn = 0;
+    for (const Curve& curve : data.curves) {
+      const double size = std::abs(curve.h[i]) + std::abs(curve.h[i - 1]);
+      if (size == 0) continue;
+      const double noise = std::sqrt(1 / curve.weight[i] + 1 / curve.weight[i - 1]);
+      turn += std::max(0.0, std::abs(curve.h[i] - curve.h[i - 1]) - 2 * noise) / size;
+    }
+    turned[i] = turned[i - 1] + turn;
+  }
+  const Eigen::Index third = std::max<Eigen::Index>(pairs / 3, 1);
+  std::vector<double> frequency;
+  for (Eigen::Index k = 0; k < third; ++k) {
+    const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(third);
+    frequency.push_back(lo * std::pow(hi / lo, share));
+    frequency.push_back(lo + (hi - lo) * share);
+  }
+  for (Eigen::Index k = 0; static_cast<Eigen::Index>(frequency.size()) < pairs; ++k) {
+    const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(pairs - 2 * third);
+    const auto line = std::lower_bound(turned.begin(), turned.end(), share * turned[data.lines() - 1]);
+    frequency.push_back(data.s[std::min<Eigen::Index>(line - turned.begin(), data.lines() - 1)].imag());
+  }
+  std::sort(frequency.begin(), frequency.end());
+  Eigen::VectorXcd poles(static_cast<Eigen::Index>(frequency.size()));
+  double last = 0;
+  for (Eigen::Index k = 0; k < poles.size(); ++k) {
+    // No two alike: a repeated pole makes the basis singular.
+    double omega = std::max(frequency[static_cast<std::size_t>(k)], last * (1 + 1e-3));
+    if (omega <= 0) omega = hi * 1e-4;
+    poles[k] = Complex(-kStartDamping * omega, omega);
+    last = omega;
+  }
+  return poles;
+}
+
+Eigen::VectorXcd relocate_poles(const FitData& data, const Eigen::VectorXcd& poles) {
+  const Eigen::Index n = poles.size();
+  const PoleValues values(data.s, poles);
+  // For each curve: residues r and common sigma = 1 d + sum c x: minimise sum w |sum r x - h sigma|^2. The
+  // residues are eliminated (Schur complement); what is left adds up over the curves, in (c, d).
+  Eigen::MatrixXd reduced = Eigen::MatrixXd::Zero(2 * n + 1, 2 * n + 1);
+  for (const Curve& curve : data.curves) {
+    const Eigen::VectorXcd wh = curve.weight.cwiseProduct(curve.h);
+    const Eigen::VectorXcd whh = (curve.weight.array() * curve.h.array().abs2()).matrix().cast<Complex>();
+    const Eigen::MatrixXd gram = real_gram(weighted_gram(values, curve.weight.cast<Complex>()));
+    Eigen::MatrixXd cross(2 * n, 2 * n + 1);  // sum w conj(x_a) h x_b, and with 1
+    cross.leftCols(2 * n) = real_gram(weighted_gram(values, wh));
+    cross.col(2 * n) = real_projection(values.phi.adjoint() * wh, values.phi_conj.adjoint() * wh);
+    Eigen::MatrixXd own(2 * n + 1, 2 * n + 1);  // sum w |h|^2 conj(x_a) x_b
+    own.topLeftCorner(2 * n, 2 * n) = real_gram(weighted_gram(values, whh));
+    own.topRightCorner(2 * n, 1) = real_projection(values.phi.adjoint() * whh, values.phi_conj.adjoint() * whh);
+    own.bottomLeftCorner(1, 2 * n) = own.topRightCorner(2 * n, 1).transpose();
+    own(2 * n, 2 * n) = whh.real().sum();
+    const Eigen::MatrixXd complement = own - cross.transpose() * ScaledSystem(gram).solve(cross);
+    reduced += (complement + complement.transpose()) / 2;
+  }
+  // Relaxed non-triviality: the mean of Re sigma over the lines is 1.
+  Eigen::VectorXd mean(2 * n + 1);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    mean[2 * k] = (values.phi.col(k) + values.phi_conj.col(k)).mean().real();
+    mean[2 * k + 1] = -(values.phi.col(k) - values.phi_conj.col(k)).mean().imag();
+  }
+  mean[2 * n] = 1;
+  Eigen::VectorXd sigma = ScaledSystem(reduced).solve(mean);
+  const double d = sigma[2 * n];
+  if (std::abs(d) < 1e-12 * sigma.cwiseAbs().maxCoeff() || !sigma.allFinite()) return poles;
+  sigma /= d;
+
+  // Zeros of sigma: eigenvalues of A - b c^T in the real form of each pair.
+  Eigen::MatrixXd zeros = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    zeros(2 * k, 2 * k) = zeros(2 * k + 1, 2 * k + 1) = poles[k].real();
+    zeros(2 * k, 2 * k + 1) = poles[k].imag();
+    zeros(2 * k + 1, 2 * k) = -poles[k].imag();
+    zeros.row(2 * k) -= 2 * sigma.head(2 * n).transpose();
+  }
+  const Eigen::VectorXcd roots = Eigen::EigenSolver<Eigen::MatrixXd>(zeros, false).eigenvalues();
+  std::vector<Complex> result;
+  std::vector<double> real_roots;
+  for (const Complex& root : roots) {
+    if (root.imag() > 0) result.emplace_back(-std::abs(root.real()), root.imag());
+    if (root.imag() == 0) real_roots.push_back(std::abs(root.real()));
+  }
+  std::sort(real_roots.begin(), real_roots.end());
+  for (std::size_t i = 0; i + 1 < real_roots.size(); i += 2) {
+    const double omega = std::max(std::sqrt(real_roots[i] * real_roots[i + 1]), 1e-6 * std::abs(data.s[data.lines() - 1]));
+    result.push_back(omega * Complex(-kRealPoleDamping, std::sqrt(1 - kRealPoleDamping * kRealPoleDamping)));
+  }
+  const double least_decay = 1e-6 * std::abs(data.s[data.lines() - 1]);
+  for (Complex& pole : result) pole = {std::min(pole.real(), -least_decay), pole.imag()};
+  std::sort(result.begin(), result.end(), [](Complex a, Complex b) { return std::abs(a) < std::abs(b); });
+  return Eigen::Map<Eigen::VectorXcd>(result.data(), static_cast<Eigen::Index>(result.size()));
+}
+
+LinearResidues linear_residues(const FitData& data, const Eigen::VectorXcd& poles) {
+  const Eigen::Index n = poles.size();
+  const PoleValues values(data.s, poles);
+  LinearResidues result;
+  result.residue.resize(n, static_cast<Eigen::Index>(data.curves.size()));
+  result.removal_loss = Eigen::VectorXd::Zero(n);
+  for (std::size_t e = 0; e < data.curves.size(); ++e) {
+    const Curve& curve = data.curves[e];
+    const Eigen::VectorXcd wh = curve.weight.cwiseProduct(curve.h);
+    const ScaledSystem system(real_gram(weighted_gram(values, curve.weight.cast<Complex>())));
+    const Eigen::MatrixXd inverse = system.solve(Eigen::MatrixXd::Identity(2 * n, 2 * n));
+    const Eigen::VectorXd coefficient = system.solve(real_projection(values.phi.adjoint() * wh, values.phi_conj.adjoint() * wh));
+    Eigen::VectorXcd residue(n);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      residue[k] = {coefficient[2 * k], coefficient[2 * k + 1]};
+      const Eigen::Vector2d pair = coefficient.segment<2>(2 * k);
+      result.removal_loss[k] += pair.dot(Eigen::Matrix2d(inverse.block<2, 2>(2 * k, 2 * k)).inverse() * pair);
+    }
+    result.residue.col(static_cast<Eigen::Index>(e)) = residue;
+    const Eigen::VectorXcd error = values.phi * residue + values.phi_conj * residue.conjugate() - curve.h;
+    result.chi_square += error.cwiseAbs2().dot(curve.weight);
+  }
+  return result;
+}
+
+}  // namespace stablecut
