@@ -135,11 +135,10 @@ class FitModes : public cli::Tool {
                    {"lines", measured.frequency_hz.size()},
                    {"noise", fit.variance_given ? "given" : "estimated"},
                    {"criterion", "bic"},
-                   {"stopped_by", fit.model_error > 0 ? "model error" : "noise"},
+                   {"stopped_by", fit.limited_by_model ? "model error" : "noise"},
                    {"relative_error", fit.relative_error},
                    {"reduced_chi_square", fit.reduced_chi_square},
                    {"curves", std::move(curves)}};
-    if (fit.model_error > 0) report["model_error"] = fit.model_error;
     return report;
   }
 

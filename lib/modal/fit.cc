@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "base/error.h"
 #include "base/units.h"
@@ -24,12 +25,22 @@ constexpr int kRelocations = 12;
 constexpr int kRelocationsAfterPruning = 4;
 constexpr int kTrialSteps = 12;       // of a refinement that only has to tell whether a mode pays
 constexpr int kFinalSteps = 60;
-constexpr int kWeightPasses = 3;      // estimates of noise and model error
+constexpr double kBeyondDoubt = 100;  // times the price
 constexpr Eigen::Index kLeastLines = 8;
-// Weights never claim more than this: relative to the value, and to the curve's RMS. Computed receptances have no
-// noise at all, and rounding must not decide the number of modes.
-constexpr double kRelativeFloor = 1e-7;
-constexpr double kRmsFloor = 1e-9;
+// Weights never claim less noise than these shares of the value, and than a part of that of the curve's RMS. Computed
+// receptances have no noise at all, and rounding must not decide the number of modes; the coarse floor finds it, the
+// fine one then takes what the numbers hold.
+constexpr double kCoarseFloor = 1e-4;
+constexpr double kFineFloor = 1e-7;
+constexpr double kRmsShare = 0.01;
+// Misfit over noise from which on the noise is not what limits the fit.
+constexpr double kModelErrorFactor = 2;
+// Where the model cannot reach the noise (a nonlinear joint, hysteretic damping, a leaking window), the residual is not
+// made of modes. Above this relative error a mode has to take away the lesser share of the residual to be one, below
+// it the larger.
+constexpr double kModelErrorFloor = 0.045;
+constexpr double kLesserShare = 0.05;
+constexpr double kLargerShare = 0.3;
 // A mode narrower than this many line spacings cannot be told from one disturbed line.
 constexpr double kLeastHalfWidth = 0.2;
 
@@ -47,18 +58,19 @@ class GroupFit {
   void run(const FitOptions& options) {
     options_ = &options;
     find_modes();
-    const int passes = estimate_noise_ ? kWeightPasses : 1;
-    for (int pass = 0; pass < passes; ++pass) {
-      if (pass > 0 && !reweight()) break;
-      current_ = refine_modes(data_, current_.modes, kFinalSteps);
-      select();
+    if (estimate_noise_) reweight();
+    select();
+    if (exceeds_noise()) {
+      build_up();
+    } else if (floor_matters()) {
+      tighten();
     }
     current_ = refine_modes(data_, current_.modes, 4 * kFinalSteps);
   }
 
   const FitData& data() const { return data_; }
   const RefinedModes& result() const { return current_; }
-  double model_error() const { return model_error_; }
+  bool limited_by_model() const { return limited_by_model_; }
   double complex_values() const { return data_.values() / 2; }
 
  private:
@@ -68,53 +80,80 @@ class GroupFit {
     for (std::size_t e = 0; e < data_.curves.size(); ++e) {
       Curve& curve = data_.curves[e];
       const double rms = std::sqrt(curve.h.squaredNorm() / static_cast<double>(data_.lines()));
-      const Eigen::ArrayXd square = curve.h.array().abs2();
-      const double relative = kRelativeFloor * kRelativeFloor + model_error_ * model_error_;
-      curve.weight = (variance_[e].array() + relative * square + std::pow(kRmsFloor * rms, 2)).inverse();
+      const double of_rms = limited_by_model_ ? kModelErrorFloor : kRmsShare * floor_;
+      curve.weight =
+          (variance_[e].array() + floor_ * floor_ * curve.h.array().abs2() + std::pow(of_rms * rms, 2)).inverse();
     }
   }
 
-  // Noise from what the model leaves, and a relative model error where that is more than noise. False when nothing
-  // changes any more.
-  bool reweight() {
+  // Noise from what the model leaves.
+  void reweight() {
     for (std::size_t e = 0; e < data_.curves.size(); ++e) {
       const Curve& curve = data_.curves[e];
-      const Eigen::VectorXcd residual = curve_of(current_.modes, curve, data_.s) - curve.h;
-      variance_[e] = estimated_variance(residual);
+      variance_[e] = estimated_variance(curve_of(current_.modes, curve, data_.s) - curve.h);
     }
-    const double before = model_error_;
-    model_error_ = 0;
     set_weights();
-    if (chi_square_of(data_, current_.modes) / complex_values() > 2) model_error_ = explaining_model_error();
-    set_weights();
-    return before == 0 || std::abs(model_error_ - before) > 0.02 * before;
+    current_ = refine_modes(data_, current_.modes, kFinalSteps);
   }
 
-  // The relative error that brings the mean of |residual|^2 / variance to 1.
-  double explaining_model_error() {
-    double low = kRelativeFloor, high = 1;
-    for (int step = 0; step < 40; ++step) {
-      model_error_ = std::sqrt(low * high);
-      set_weights();
-      (chi_square_of(data_, current_.modes) / complex_values() > 1 ? low : high) = model_error_;
+  bool exceeds_noise() const { return current_.chi_square / complex_values() > kModelErrorFactor; }
+
+  // Whether the floor, not the noise, decides some weights.
+  bool floor_matters() const {
+    double share = 0;
+    for (const Curve& curve : data_.curves) share += floor_ * floor_ * curve.h.cwiseAbs2().dot(curve.weight);
+    return share > 0.01 * complex_values();
+  }
+
+  // Nearly no noise: the same again with all that the numbers hold, unless the model cannot follow.
+  void tighten() {
+    const RefinedModes coarse = current_;
+    const double coarse_floor = std::exchange(floor_, kFineFloor);
+    set_weights();
+    current_ = refine_modes(data_, current_.modes, kFinalSteps);
+    if (estimate_noise_) reweight();
+    select();
+    if (!exceeds_noise()) return;
+    floor_ = coarse_floor;
+    set_weights();
+    current_ = coarse;
+  }
+
+  // The model error takes over: curves weigh by their size, and modes are found from the strongest on.
+  void build_up() {
+    limited_by_model_ = true;
+    set_weights();
+    current_ = refine_modes(data_, {}, 0);
+    select();
+  }
+
+  // |model - h| / |h|, root mean square over the curves.
+  double relative_error(const std::vector<Mode>& modes) const {
+    double sum = 0;
+    for (const Curve& curve : data_.curves) {
+      sum += (curve_of(modes, curve, data_.s) - curve.h).squaredNorm() / curve.h.squaredNorm();
     }
-    return high;
+    return std::sqrt(sum / static_cast<double>(data_.curves.size()));
   }
 
   // ---- the price of a mode ----
 
-  // Likelihood that a mode must gain: half its real parameters times the log of the number of values (Schwarz). A
+  // Chi-square that a mode must take away: half its real parameters times the log of the number of values (Schwarz). A
   // residual that is larger than the noise, or smooth over lines, holds less information than its length.
-  double price() const {
-    const double spread = std::max(1.0, current_.chi_square / complex_values());
+  double price(const RefinedModes& without) const {
+    const double parameters = 2.0 + 2.0 * static_cast<double>(2 * data_.dofs - 1);
+    const double information = (parameters / 2) * std::log(data_.values());
+    if (limited_by_model_) {
+      const double share = relative_error(without.modes) > kModelErrorFloor ? kLesserShare : kLargerShare;
+      return std::max(information, share * without.chi_square);
+    }
+    const double spread = std::max(1.0, without.chi_square / complex_values());
     double length = 0;
     for (const Curve& curve : data_.curves) {
-      const Eigen::VectorXcd residual = curve_of(current_.modes, curve, data_.s) - curve.h;
+      const Eigen::VectorXcd residual = curve_of(without.modes, curve, data_.s) - curve.h;
       length += correlation_length(curve.weight.cwiseSqrt().cwiseProduct(residual));
     }
-    length /= static_cast<double>(data_.curves.size());
-    const double parameters = 2.0 + 2.0 * static_cast<double>(2 * data_.dofs - 1);
-    return spread * length * (parameters / 2) * std::log(data_.values());
+    return information * spread * length / static_cast<double>(data_.curves.size());
   }
 
   // ---- candidates ----
@@ -171,9 +210,9 @@ class GroupFit {
   // ---- selection ----
 
   void select() {
-    for (int round = 0; round < 20; ++round) {
+    for (int round = 0; round < 60; ++round) {
       remove_modes();
-      report(0.5 + 0.02 * round);
+      report(0.5 + 0.01 * round);
       if (!add_mode()) break;
     }
   }
@@ -182,27 +221,32 @@ class GroupFit {
     return options_->modes && static_cast<int>(current_.modes.size()) <= *options_->modes;
   }
 
+  // Takes modes away, the least important first, as long as that costs less than they must be worth.
   void remove_modes() {
-    for (;;) {
-      if (current_.modes.size() <= 1 || has_wanted_count()) return;
-      const double price_now = options_->modes ? INFINITY : price();
+    while (current_.modes.size() > 1 && !has_wanted_count()) {
       std::vector<std::size_t> order(current_.modes.size());
       std::iota(order.begin(), order.end(), std::size_t{0});
-      std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return loss(a) < loss(b); });
+      std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return std::pair(!is_too_narrow(current_.modes[a]), loss(a)) < std::pair(!is_too_narrow(current_.modes[b]), loss(b));
+      });
       bool removed = false;
       for (std::size_t attempt = 0; attempt < std::min<std::size_t>(3, order.size()) && !removed; ++attempt) {
-        const std::size_t k = order[attempt];
-        if (!is_too_narrow(current_.modes[k]) && loss(k) > 100 * price_now) break;
-        std::vector<Mode> fewer = current_.modes;
-        fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
-        RefinedModes trial = refine_modes(data_, fewer, kTrialSteps);
-        if (is_too_narrow(current_.modes[k]) || trial.chi_square - current_.chi_square < price_now) {
-          current_ = std::move(trial);
-          removed = true;
-        }
+        removed = remove_if_worthless(order[attempt]);
       }
       if (!removed) return;
     }
+  }
+
+  bool remove_if_worthless(std::size_t k) {
+    // The second-order loss is a good guess: no trial where it says that the mode matters beyond doubt.
+    const bool forced = options_->modes.has_value() || is_too_narrow(current_.modes[k]);
+    if (!forced && loss(k) > kBeyondDoubt * price(current_)) return false;
+    std::vector<Mode> fewer = current_.modes;
+    fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
+    RefinedModes trial = refine_modes(data_, fewer, kTrialSteps);
+    if (!forced && trial.chi_square - current_.chi_square >= price(trial)) return false;
+    current_ = std::move(trial);
+    return true;
   }
 
   double loss(std::size_t k) const { return current_.removal_loss[static_cast<Eigen::Index>(k)]; }
@@ -219,11 +263,11 @@ class GroupFit {
     std::vector<Mode> more = current_.modes;
     more.push_back(candidate);
     RefinedModes trial = refine_modes(data_, more, 2 * kTrialSteps);
-    const double price_now = price();
-    if (!(current_.chi_square - trial.chi_square > price_now)) return false;
+    if (!(current_.chi_square - trial.chi_square > price(current_))) return false;
     if (std::any_of(trial.modes.begin(), trial.modes.end(), [&](const Mode& mode) { return is_too_narrow(mode); })) {
       return false;
     }
+    if (getenv("DBG")) fprintf(stderr, "add %g %g: %g -> %g, price %g\n", candidate.frequency_hz, candidate.damping_ratio, current_.chi_square, trial.chi_square, price(current_));
     current_ = std::move(trial);
     return true;
   }
@@ -281,7 +325,8 @@ class GroupFit {
   FitData data_;
   std::vector<Eigen::VectorXd> variance_;  // of the noise, per curve
   bool estimate_noise_ = false;
-  double model_error_ = 0;
+  bool limited_by_model_ = false;
+  double floor_ = kCoarseFloor;
   const FitOptions* options_ = nullptr;
   RefinedModes current_;
 };
@@ -351,7 +396,7 @@ ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options)
     GroupFit part(group_data(measured, group, directions), std::move(variance));
     part.run(options);
     fit.converged = fit.converged && part.result().converged;
-    fit.model_error = std::max(fit.model_error, part.model_error());
+    fit.limited_by_model = fit.limited_by_model || part.limited_by_model();
     chi_square += part.result().chi_square;
     values += part.complex_values();
     for (const Curve& curve : part.data().curves) {

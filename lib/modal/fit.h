@@ -33,8 +33,8 @@ struct ModalFit {
   double relative_error = 0;  ///< over all curves together
   double reduced_chi_square = 0;
   bool variance_given = false;  ///< the noise came with the measurement; otherwise it was estimated from it
-  /// Relative model error that had to be assumed on top of the noise for the residual to be explained; 0: none.
-  double model_error = 0;
+  /// The residual is larger than the noise: selection stopped at the model error, not at the noise.
+  bool limited_by_model = false;
   bool converged = false;
   std::vector<std::string> warnings;
 };

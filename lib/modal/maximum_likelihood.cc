@@ -14,6 +14,9 @@ namespace {
 
 using Complex = std::complex<double>;
 
+// Bounds of decay rates and frequencies, in units of the highest line.
+constexpr double kLeastRate = 1e-6;
+constexpr double kLargestRate = 100;
 constexpr double kRidge = 1e-13;  // of the diagonal, so that a mode without residue does not stop the factorization
 
 // How the real parameter vector describes the modes:
@@ -281,16 +284,27 @@ RefinedModes refine_modes(const FitData& data, const std::vector<Mode>& start, i
 
   ceres::Problem problem;
   problem.AddResidualBlock(new CompressedCost(likelihood, parameters.size()), nullptr, x.data());
+  const double highest = data.s.cwiseAbs().maxCoeff();
+  for (Eigen::Index k = 0; k < parameters.modes(); ++k) {
+    // Outside the band the data do not tell damping or distance: keep both from running away.
+    const int at = static_cast<int>(parameters.pole_at(k));
+    for (const int i : {at, at + 1}) {
+      x[i] = std::clamp(x[i], std::log(kLeastRate * highest), std::log(kLargestRate * highest));
+      problem.SetParameterLowerBound(x.data(), i, std::log(kLeastRate * highest));
+      problem.SetParameterUpperBound(x.data(), i, std::log(kLargestRate * highest));
+    }
+  }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = iterations;
-  options.function_tolerance = 1e-10;
+  options.function_tolerance = 1e-9;
   options.gradient_tolerance = 0;
   options.parameter_tolerance = 1e-13;
   options.logging_type = ceres::SILENT;
   options.num_threads = 1;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
+  if (getenv("DBG")) fprintf(stderr, "%zu modes, %d it, %.6g -> %.6g %s\n", start.size(), (int)summary.iterations.size(), summary.initial_cost, summary.final_cost, summary.message.c_str());
 
   result.modes = parameters.unpack(x.data());
   for (std::size_t k = 0; k < start.size(); ++k) result.modes[k].out_of_band = start[k].out_of_band;
