@@ -267,7 +267,6 @@ class GroupFit {
     if (std::any_of(trial.modes.begin(), trial.modes.end(), [&](const Mode& mode) { return is_too_narrow(mode); })) {
       return false;
     }
-    if (getenv("DBG")) fprintf(stderr, "add %g %g: %g -> %g, price %g\n", candidate.frequency_hz, candidate.damping_ratio, current_.chi_square, trial.chi_square, price(current_));
     current_ = std::move(trial);
     return true;
   }

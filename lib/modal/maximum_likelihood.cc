@@ -269,6 +269,15 @@ void add_statistics(const Parametrization& parameters, const Eigen::VectorXd& x,
   }
 }
 
+// The last steps brought next to nothing: along a direction that the data hardly see.
+bool has_settled(const ceres::Solver::Summary& summary) {
+  constexpr std::size_t kSteps = 20;
+  constexpr double kNextToNothing = 1e-3;
+  const auto& steps = summary.iterations;
+  return summary.IsSolutionUsable() && steps.size() > kSteps &&
+         steps[steps.size() - 1 - kSteps].cost - summary.final_cost < kNextToNothing * summary.final_cost;
+}
+
 }  // namespace
 
 RefinedModes refine_modes(const FitData& data, const std::vector<Mode>& start, int iterations) {
@@ -304,11 +313,10 @@ RefinedModes refine_modes(const FitData& data, const std::vector<Mode>& start, i
   options.num_threads = 1;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
-  if (getenv("DBG")) fprintf(stderr, "%zu modes, %d it, %.6g -> %.6g %s\n", start.size(), (int)summary.iterations.size(), summary.initial_cost, summary.final_cost, summary.message.c_str());
 
   result.modes = parameters.unpack(x.data());
   for (std::size_t k = 0; k < start.size(); ++k) result.modes[k].out_of_band = start[k].out_of_band;
-  result.converged = summary.termination_type == ceres::CONVERGENCE;
+  result.converged = summary.termination_type == ceres::CONVERGENCE || has_settled(summary);
   const NormalEquations normal = likelihood.evaluate(x.data(), true);
   result.chi_square = normal.chi_square;
   add_statistics(parameters, x, normal, result);
