@@ -44,6 +44,13 @@ ModalModel modal_table_from_json(const Json& document, const Source& source) {
     mode.psi_r = vector_from(item.at("psi_r"), model.dofs.size());
     mode.psi_l = vector_from(item.at("psi_l"), model.dofs.size());
     if (const auto out = item.find("out_of_band")) mode.out_of_band = out->boolean();
+    if (const auto std_node = item.find("std")) {
+      std_node->check_names({"frequency_hz", "damping_ratio", "psi_r", "psi_l"});
+      if (std_node->has("frequency_hz") && std_node->has("damping_ratio")) {
+        mode.deviation = {std_node->at("frequency_hz").number(kNotNegative),
+                          std_node->at("damping_ratio").number(kNotNegative)};
+      }
+    }
     model.modes.push_back(std::move(mode));
   }
   return model;
@@ -58,6 +65,9 @@ Json modal_table_to_json(const ModalModel& model) {
                  {"psi_r", vector_to(mode.psi_r)},
                  {"psi_l", vector_to(mode.psi_l)}};
     if (mode.out_of_band) item["out_of_band"] = true;
+    if (mode.deviation) {
+      item["std"] = {{"frequency_hz", mode.deviation->frequency_hz}, {"damping_ratio", mode.deviation->damping_ratio}};
+    }
     modes.push_back(std::move(item));
   }
   return {{"format", "stablecut/modal-table/1"}, {"dofs", model.dofs}, {"modes", std::move(modes)}};

@@ -3,11 +3,18 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace stablecut {
+
+/// Standard deviations of a mode's estimates.
+struct ModeDeviation {
+  double frequency_hz = 0;
+  double damping_ratio = 0;
+};
 
 /// One complex mode. Its part of the receptance is psi_r psi_l^T / (i w - lambda) + conjugate pole and vectors.
 struct Mode {
@@ -16,6 +23,7 @@ struct Mode {
   Eigen::VectorXcd psi_r;    ///< [dofs] right vector, sqrt(s/kg)
   Eigen::VectorXcd psi_l;    ///< [dofs] left vector, sqrt(s/kg)
   bool out_of_band = false;  ///< stands for what lies outside the measured band
+  std::optional<ModeDeviation> deviation;  ///< when known
 
   /// lambda with positive imaginary part, rad/s.
   std::complex<double> pole() const;

@@ -406,7 +406,7 @@ ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options)
                             directions[static_cast<std::size_t>(curve.reference)], error.norm() / curve.h.norm(),
                             error.cwiseAbs2().dot(curve.weight) / static_cast<double>(error.size())});
     }
-    for (Mode mode : part.result().modes) {
+    for (const Mode& mode : part.result().modes) {
       // Into all directions: exact zeros where the group does not reach.
       Mode whole = mode;
       whole.psi_r = whole.psi_l = Eigen::VectorXcd::Zero(static_cast<Eigen::Index>(fit.model.dofs.size()));
@@ -417,6 +417,8 @@ ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options)
       }
       whole.out_of_band = mode.frequency_hz < measured.frequency_hz[0] ||
                           mode.frequency_hz > measured.frequency_hz[measured.frequency_hz.size() - 1];
+      // Where the model error limits the fit, the weights are not the noise: no standard deviation is known.
+      if (part.limited_by_model()) whole.deviation.reset();
       fit.model.modes.push_back(normalised(whole));
     }
   }

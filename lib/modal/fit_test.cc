@@ -1,1 +1,146 @@
+#include "modal/fit.h"
+
 #include <catch2/catch.hpp>
+#include <cmath>
+
+#include "base/error.h"
+#include "modal/modal_fixtures_test.h"
+
+using namespace stablecut;
+using Complex = std::complex<double>;
+
+namespace {
+
+const Eigen::VectorXd kLines = Eigen::VectorXd::LinSpaced(2048, 1, 2000);
+
+double rebuild_error(const ModalFit& fit, const FrequencyResponse& measured) {
+  const FrequencyResponse fitted = synthesize(fit.model, measured.frequency_hz);
+  double error = 0, size = 0;
+  for (const auto& entry : measured.entries) {
+    const auto* other = fitted.find(entry.response, entry.reference);
+    REQUIRE(other != nullptr);
+    error += (other->h - entry.h).squaredNorm();
+    size += entry.h.squaredNorm();
+  }
+  return std::sqrt(error / size);
+}
+
+// Close pairs and heavy damping, where linear methods lose modes.
+ModalModel hard_case() {
+  ModalModel model = fixtures::close_pair();
+  model.modes.push_back(
+      fixtures::mode(648, 0.01, {Complex(1, 0.2), Complex(-0.5, 0.1)}, {Complex(2e-4, 0), Complex(1e-4, -1e-4)}));
+  model.modes.push_back(
+      fixtures::mode(905, 0.2, {Complex(0.8, 0.1), Complex(-0.9, 0.3)}, {Complex(5e-4, 2e-4), Complex(-4e-4, 0)}));
+  return model;
+}
+
+}  // namespace
+
+TEST_CASE("the modes are found without a hint, with and without a known variance") {
+  const ModalModel truth = hard_case();
+  for (const bool variance_known : {true, false}) {
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      FrequencyResponse measured = synthesize(truth, kLines);
+      add_noise(measured, {{}, 40.0, seed});
+      if (!variance_known) {
+        for (auto& entry : measured.entries) entry.variance.resize(0);
+      }
+      const ModalFit fit = fit_modes(measured);
+      INFO("seed " << seed << (variance_known ? ", variance known" : ""));
+      CHECK(fit.variance_given == variance_known);
+      CHECK(fit.converged);
+      CHECK(fit.reduced_chi_square == Approx(1).margin(variance_known ? 0.05 : 0.2));
+      REQUIRE(fit.model.modes.size() == truth.modes.size());
+      for (std::size_t k = 0; k < truth.modes.size(); ++k) {
+        const Mode& mode = fit.model.modes[k];
+        REQUIRE(mode.deviation);
+        // 12 values in 6 runs: four standard deviations are passed once in 200.
+        CHECK(std::abs(mode.frequency_hz - truth.modes[k].frequency_hz) < 4.5 * mode.deviation->frequency_hz);
+        CHECK(std::abs(mode.damping_ratio - truth.modes[k].damping_ratio) < 4.5 * mode.deviation->damping_ratio);
+      }
+    }
+  }
+}
+
+TEST_CASE("a doubled structure gives two rank-1 modes for each pole, exact zeros across") {
+  ModalModel truth;
+  truth.dofs = {"x", "y"};
+  for (const double frequency : {294.0, 1830.0}) {
+    const Complex psi = std::sqrt(Complex(0, -1 / (2 * 0.05 * 6.283185307179586 * frequency)));
+    truth.modes.push_back(fixtures::mode(frequency, 0.01, {psi, 0}, {psi, 0}));
+    truth.modes.push_back(fixtures::mode(frequency, 0.01, {0, psi}, {0, psi}));
+  }
+  const FrequencyResponse measured = synthesize(truth, Eigen::VectorXd::LinSpaced(2500, 1, 2500));
+  const ModalFit fit = fit_modes(measured);
+  REQUIRE(fit.model.modes.size() == 4);
+  CHECK(rebuild_error(fit, measured) < 1e-9);
+  CHECK_FALSE(fit.limited_by_model);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Mode& mode = fit.model.modes[k];
+    CHECK(mode.frequency_hz == Approx(truth.modes[k].frequency_hz).epsilon(1e-9));
+    CHECK(mode.damping_ratio == Approx(0.01).epsilon(1e-7));
+    CHECK(mode.psi_r.cwiseAbs().minCoeff() == 0);
+    CHECK((mode.psi_r - mode.psi_l).norm() < 1e-9 * mode.psi_r.norm());
+  }
+}
+
+TEST_CASE("a fitted table comes back in the normalisation of the contract") {
+  const ModalModel truth = fixtures::close_pair();
+  const ModalFit fit = fit_modes(synthesize(truth, kLines));
+  REQUIRE(fit.model.modes.size() == truth.modes.size());
+  for (std::size_t k = 0; k < truth.modes.size(); ++k) {
+    const Mode expected = normalised(truth.modes[k]);
+    CHECK((fit.model.modes[k].psi_r - expected.psi_r).norm() < 1e-8 * expected.psi_r.norm());
+    CHECK((fit.model.modes[k].psi_l - expected.psi_l).norm() < 1e-8 * expected.psi_l.norm());
+    CHECK_FALSE(fit.model.modes[k].out_of_band);
+  }
+}
+
+TEST_CASE("what lies outside the band is carried by modes marked so") {
+  ModalModel truth = fixtures::close_pair();
+  const FrequencyResponse whole = synthesize(truth, Eigen::VectorXd::LinSpaced(2000, 1, 1000));
+  const FrequencyResponse band = within_band(whole, 90, 400);
+  const ModalFit fit = fit_modes(band);
+  CHECK(rebuild_error(fit, band) < 1e-6);
+  int inside = 0;
+  for (const Mode& mode : fit.model.modes) inside += mode.out_of_band ? 0 : 1;
+  CHECK(inside == 3);
+  CHECK(fit.model.modes.back().out_of_band);
+}
+
+TEST_CASE("a model error ends the search without spurious modes") {
+  // Hysteretic damping: no viscous mode fits it exactly.
+  FrequencyResponse measured;
+  measured.frequency_hz = Eigen::VectorXd::LinSpaced(2000, 1, 2000);
+  FrequencyResponseEntry entry;
+  entry.response = entry.reference = "x";
+  entry.h.resize(2000);
+  for (Eigen::Index i = 0; i < 2000; ++i) {
+    const double omega = 6.283185307179586 * measured.frequency_hz[i];
+    entry.h[i] = 0;
+    for (const double frequency : {300.0, 1200.0}) {
+      const double natural = 6.283185307179586 * frequency;
+      entry.h[i] += 10.0 / (natural * natural * Complex(1, 0.02) - omega * omega);
+    }
+  }
+  measured.entries.push_back(entry);
+  const ModalFit fit = fit_modes(measured);
+  CHECK(fit.limited_by_model);
+  CHECK(fit.relative_error < 0.02);
+  CHECK(fit.model.modes.size() <= 6);
+}
+
+TEST_CASE("the number of modes can be given") {
+  FrequencyResponse measured = synthesize(fixtures::close_pair(), kLines);
+  add_noise(measured, {{}, 40.0, 5});
+  CHECK(fit_modes(measured, {3, {}}).model.modes.size() == 3);
+}
+
+TEST_CASE("what cannot be fitted is said") {
+  const ModalModel truth = fixtures::close_pair();
+  CHECK_THROWS_AS(fit_modes(synthesize(truth, Eigen::VectorXd::LinSpaced(5, 1, 5))), InvalidArgument);
+  FrequencyResponse zeros = synthesize(truth, kLines);
+  for (auto& entry : zeros.entries) entry.h.setZero();
+  CHECK_THROWS_AS(fit_modes(zeros), NoAnswer);
+}

@@ -250,8 +250,6 @@ void add_statistics(const Parametrization& parameters, const Eigen::VectorXd& x,
   const Eigen::MatrixXd covariance =
       factorized(normal.matrix).solve(Eigen::MatrixXd::Identity(parameters.size(), parameters.size()));
   result.removal_loss.resize(n);
-  result.frequency_std_hz.resize(n);
-  result.damping_std.resize(n);
   for (Eigen::Index k = 0; k < n; ++k) {
     const Eigen::Index first = parameters.left_at(k, 0);
     const Eigen::Index count = parameters.pole_at(k) + parameters.per_mode() - first;
@@ -264,8 +262,9 @@ void add_statistics(const Parametrization& parameters, const Eigen::VectorXd& x,
     // omega_n^2 = a^2 + b^2: d log omega_n = zeta^2 d log a + (1 - zeta^2) d log b; zeta = a / omega_n.
     const Eigen::Vector2d of_frequency(zeta * zeta, beta * beta);
     const Eigen::Vector2d of_damping(beta * beta, -beta * beta);
-    result.frequency_std_hz[k] = hz_from_rad_per_s(std::abs(lambda)) * std::sqrt(of_frequency.dot(pole * of_frequency));
-    result.damping_std[k] = zeta * std::sqrt(of_damping.dot(pole * of_damping));
+    result.modes[static_cast<std::size_t>(k)].deviation = {
+        hz_from_rad_per_s(std::abs(lambda)) * std::sqrt(of_frequency.dot(pole * of_frequency)),
+        zeta * std::sqrt(of_damping.dot(pole * of_damping))};
   }
 }
 

@@ -9,13 +9,11 @@
 namespace stablecut {
 
 struct RefinedModes {
-  std::vector<Mode> modes;
+  std::vector<Mode> modes;  ///< with standard deviations for the noise that the weights say
   double chi_square = 0;   ///< sum over lines and curves of |model - h|^2 / variance
   bool converged = false;
   /// Loss in chi-square, to second order, when the mode's residue is taken away and all else adapts: [modes].
   Eigen::VectorXd removal_loss;
-  /// Standard deviations of frequency (Hz) and damping ratio for the noise that the weights say: [modes].
-  Eigen::VectorXd frequency_std_hz, damping_std;
 };
 
 /// Minimises the weighted squared error of all curves at once over poles and vectors, from the given modes. Each

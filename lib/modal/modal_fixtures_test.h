@@ -1,0 +1,45 @@
+// Structures that several tests of this room share.
+#pragma once
+
+#include <complex>
+
+#include "dynamics/synthesis.h"
+#include "modal/fit_data.h"
+
+namespace stablecut::fixtures {
+
+inline Mode mode(double frequency_hz, double damping_ratio, Eigen::Vector2cd psi_r, Eigen::Vector2cd psi_l) {
+  Mode result;
+  result.frequency_hz = frequency_hz;
+  result.damping_ratio = damping_ratio;
+  result.psi_r = psi_r;
+  result.psi_l = psi_l;
+  return result;
+}
+
+/// Four non-symmetric modes in x and y: a close pair, a heavily damped one, a light one.
+inline ModalModel close_pair() {
+  using Complex = std::complex<double>;
+  ModalModel model;
+  model.dofs = {"x", "y"};
+  model.modes = {mode(120, 0.01, {Complex(1, 0.1), Complex(-0.4, 0.2)}, {Complex(0.9e-4, 1e-5), Complex(-2e-5, 3e-5)}),
+                 mode(121.8, 0.012, {Complex(0.3, -0.2), Complex(1, 0)}, {Complex(2e-5, 1e-5), Complex(1e-4, -2e-5)}),
+                 mode(260, 0.12, {Complex(1, 0), Complex(0.7, 0.6)}, {Complex(3e-4, -1e-4), Complex(2e-4, 1e-4)}),
+                 mode(640, 0.008, {Complex(0.2, 0.9), Complex(1, -0.3)}, {Complex(1e-4, 1e-4), Complex(-2e-4, 0)})};
+  return model;
+}
+
+/// The model's exact receptances on 1 to 1000 Hz, weighted for noise of that share of each value.
+inline FitData data_of(const ModalModel& model, double relative_noise) {
+  const FrequencyResponse frf = synthesize(model, Eigen::VectorXd::LinSpaced(1000, 1, 1000));
+  FitData data;
+  data.s = std::complex<double>(0, 6.283185307179586) * frf.frequency_hz.cast<std::complex<double>>();
+  data.dofs = 2;
+  for (const auto& entry : frf.entries) {
+    data.curves.push_back({model.dof(entry.response), model.dof(entry.reference), entry.h,
+                           (relative_noise * relative_noise * entry.h.array().abs2()).inverse()});
+  }
+  return data;
+}
+
+}  // namespace stablecut::fixtures

@@ -1,0 +1,67 @@
+# Shared by the plot scripts: options, the gnuplot terminal. Source it, then call plot_options "$@".
+# shellcheck shell=bash
+
+plot_fail() { echo "$(basename "$0"): $1" >&2; exit "${2:-64}"; }
+
+# Sets input, output ("-": standard output), form (svg, png, dumb), and extra[NAME] for the value options named in
+# $value_options, as in value_options="--fitted". Prints $usage for --help.
+plot_options() {
+  input=- output=- form=
+  declare -gA extra=()
+  local inputs=0
+  while [ $# -gt 0 ]; do
+    case "$1" in
+      -h|--help) echo "$usage"; exit 0 ;;
+      -o|--output) [ $# -ge 2 ] || plot_fail "$1: expected a file"; output=$2; shift 2 ;;
+      --terminal) form=dumb; shift ;;
+      -) inputs=$((inputs + 1)); shift ;;
+      -*)
+        [[ " $value_options " == *" $1 "* ]] || plot_fail "$1: unknown option (see $(basename "$0") --help)"
+        [ $# -ge 2 ] || plot_fail "$1: expected a value"
+        extra[$1]=$2; shift 2 ;;
+      *) input=$1; inputs=$((inputs + 1)); shift ;;
+    esac
+  done
+  [ $inputs -le 1 ] || plot_fail "expected one input"
+  command -v gnuplot >/dev/null && command -v jq >/dev/null || plot_fail "gnuplot and jq are needed (scripts/setup)" 70
+  if [ -z "$form" ]; then
+    case "$output" in
+      -) if [ -t 1 ]; then form=dumb; else form=svg; fi ;;
+      *.svg) form=svg ;;
+      *.png) form=png ;;
+      *) plot_fail "$output: expected a name that ends in .svg or .png" ;;
+    esac
+  fi
+  work=$(mktemp -d)
+  trap 'rm -rf "$work"' EXIT
+}
+
+# plot_input PATH KIND NAME: checks the document's kind and copies it to $work/NAME.
+plot_input() {
+  local shown=$1
+  if [ "$1" = - ]; then shown="<stdin>"; cat >"$work/$3"
+  else cat -- "$1" >"$work/$3" 2>/dev/null || plot_fail "$1: cannot be read" 66; fi
+  local format
+  format=$(jq -r '.format? // "none"' "$work/$3" 2>/dev/null) || plot_fail "$shown: not JSON: expected stablecut/$2/1" 65
+  [ "$format" = "stablecut/$2/1" ] || plot_fail "$shown: /format: ${format:-nothing}: expected stablecut/$2/1" 65
+}
+
+# plot_terminal WIDTH HEIGHT: the set terminal line, for the form.
+plot_terminal() {
+  case "$form" in
+    svg) echo "set terminal svg size $1,$2 font 'DejaVu Sans,14' background 'white'" ;;
+    png) echo "set terminal pngcairo size $1,$2 font 'DejaVu Sans,11'" ;;
+    dumb)
+      local columns=${COLUMNS:-$(tput cols 2>/dev/null || echo 100)}
+      local colour=ansi
+      { [ -t 1 ] && [ -z "${NO_COLOR:-}" ]; } || colour=mono
+      echo "set terminal dumb $colour size $columns,$((columns > 120 ? 40 : 32)) noenhanced" ;;
+  esac
+}
+
+# plot_run: runs $work/plot.gp and puts the picture where it belongs, whole.
+plot_run() {
+  (cd "$work" && gnuplot plot.gp) >"$work/picture" 2>"$work/messages" || { cat "$work/messages" >&2; plot_fail "gnuplot failed" 70; }
+  if [ "$output" = - ]; then cat "$work/picture"
+  else cp "$work/picture" "$output.part" && mv "$output.part" "$output" || plot_fail "$output: cannot be created" 73; fi
+}
