@@ -1,0 +1,99 @@
+#!/usr/bin/env bash
+# Bad input to sdm-lobes: the right exit status, one line that names the place, nothing half-written.
+. "$SOURCE/apps/testing.sh"
+table=$data/thesis-table-6-2.json cut=$data/thesis-cut.json
+
+# cut_with FILTER PLACE: the cut changed by a jq filter is refused with that place and status 65.
+cut_with() {
+  jq "$1" "$cut" >cut.json
+  refused 65 "^sdm-lobes: cut.json: $2" sdm-lobes --cut cut.json "$table" -o result.json
+}
+cut_with '.teeth = 0' '/teeth: 0: expected a whole number from 1'
+cut_with '.teeth = 2.5' '/teeth: 2.5: expected'
+cut_with '.teeth = "2"' '/teeth: "2": expected'
+cut_with 'del(.teeth)' '/teeth: missing'
+cut_with '.kt_n_per_mm2 = -1' '/kt_n_per_mm2: -1: expected a number above 0'
+cut_with '.kt_n_per_mm2 = null' '/kt_n_per_mm2: null: expected'
+cut_with '.milling = "sideways"' '/milling: "sideways": expected "up" or "down"'
+cut_with '.radial_immersion = 0' '/radial_immersion: 0: expected'
+cut_with '.radial_immersion = 1.5' '/radial_immersion: 1.5: expected'
+cut_with 'del(.radial_immersion)' '/radial_immersion: missing'
+cut_with 'del(.radial_immersion) | .entry_deg = 90 | .exit_deg = 60' '/exit_deg: 60: expected an angle above entry_deg'
+cut_with 'del(.radial_immersion) | .entry_deg = -5 | .exit_deg = 60' '/entry_deg: -5: expected'
+cut_with '.chart.depth_mm.from = -1' '/chart/depth_mm/from: -1: expected a number not below 0'
+cut_with '.chart.speed_rpm.from = 0' '/chart/speed_rpm/from: 0: expected a number above 0'
+cut_with '.chart.speed_rpm.to = 10' '/chart/speed_rpm/to: 10: expected a number above from'
+cut_with '.kt_n_per_mm = 1' '/kt_n_per_mm: unknown field: expected kt_n_per_mm2'
+cut_with '.theeth = 2' '/theeth: unknown field: expected teeth'
+cut_with '.helix_deg = 30' '/helix_deg: 30: expected 0'
+cut_with '.pitch_deg = [170, 190]' '/pitch_deg: .*expected equal angles'
+cut_with '.pitch_deg = [170, 100]' '/pitch_deg: .*expected angles that sum to 360'
+cut_with '.format = "stablecut/cut/2"' '/format: "stablecut/cut/2": expected "stablecut/cut/1"'
+jq '.x_note = "free" | .remark = 1' "$cut" >cut.json
+check "other fields are free" sdm-lobes --cut cut.json "$table" --speed 9000:9000:1 --depth 1:1:1 -o free.json
+
+# table_with FILTER PLACE: the same for the modal table.
+table_with() {
+  jq "$1" "$table" >table.json
+  refused 65 "^sdm-lobes: table.json: $2" sdm-lobes --cut "$cut" table.json -o result.json
+}
+table_with '.modes[3].frequency_hz = "x"' '/modes/3/frequency_hz: "x": expected a frequency'
+table_with '.modes[3].damping_ratio = 0' '/modes/3/damping_ratio: 0: expected'
+table_with '.modes[3].damping_ratio = 1' '/modes/3/damping_ratio: 1: expected'
+table_with 'del(.modes[0].psi_l)' '/modes/0/psi_l: missing'
+table_with '.modes[2].psi_r = [[1, 2]]' '/modes/2/psi_r: a list of 1: expected 2 complex'
+table_with '.modes[2].psi_r[1] = [1, 2, 3]' '/modes/2/psi_r/1: a list of 3: expected a complex number'
+table_with '.modes = []' '/modes: a list of 0: expected'
+table_with '.dofs = ["z", "w"]' '/dofs: .*expected x, y or both'
+table_with '.dofs = ["x", "x"]' '/dofs/1: "x": expected'
+table_with '.format = "stablecut/frf/1"' '/format: "stablecut/frf/1": expected "stablecut/modal-table/1"'
+refused 65 '^sdm-lobes: <stdin>: empty input' sdm-lobes --cut "$cut" </dev/null
+head -c 700 "$table" >truncated.json
+refused 65 '^sdm-lobes: truncated.json: line [0-9]+: /modes/.*the document ends here' sdm-lobes --cut "$cut" truncated.json
+sed 's/7.67,/NaN,/' "$table" >nan.json
+refused 65 '^sdm-lobes: nan.json: line [0-9]+: /modes/0/frequency_hz: NaN' sdm-lobes --cut "$cut" nan.json
+sed 's/7.67,/1e999,/' "$table" >huge.json
+refused 65 '^sdm-lobes: huge.json: .*/modes/0/frequency_hz' sdm-lobes --cut "$cut" huge.json
+sed 's/"dofs"/"dofs": [], "dofs"/' "$table" >twice.json
+refused 65 '^sdm-lobes: twice.json: /dofs: duplicate key' sdm-lobes --cut "$cut" twice.json
+check "nothing was written" test ! -e result.json
+
+# Tested cuts.
+printf 'depth_mm,speed_rpm,observed\n1,9000,stable\n-1,9000,stable\n' >points.csv
+refused 65 '^sdm-lobes: points.csv: line 3: -1: expected a depth' sdm-lobes --cut "$cut" "$table" --points points.csv
+printf 'depth_mm,speed_rpm\n1,x\n' >points.csv
+refused 65 '^sdm-lobes: points.csv: line 2: "x": expected a speed' sdm-lobes --cut "$cut" "$table" --points points.csv
+printf 'depth_mm,speed_rpm,observed\n1,9000,maybe\n' >points.csv
+refused 65 '^sdm-lobes: points.csv: line 2: "maybe": expected stable or chatter' sdm-lobes --cut "$cut" "$table" --points points.csv
+
+# Usage.
+refused 64 '^sdm-lobes: --teeth: missing: expected --cut' sdm-lobes "$table"
+refused 64 '^sdm-lobes: --kr: missing' sdm-lobes "$table" --teeth 2 --kt 600
+refused 64 '^sdm-lobes: --cut: expected either' sdm-lobes "$table" --cut "$cut" --teeth 2
+refused 64 '^sdm-lobes: -: expected standard input for one input only' sdm-lobes --cut - <"$cut"
+refused 64 '^sdm-lobes: --speed: 5000:20000: expected FROM:TO:COUNT' sdm-lobes "$table" --cut "$cut" --speed 5000:20000
+refused 64 '^sdm-lobes: --depth: expected depths not below 0' sdm-lobes "$table" --cut "$cut" --depth -1:2:3
+refused 64 '^sdm-lobes: --speed: expected speeds above 0' sdm-lobes "$table" --cut "$cut" --speed 0:2:3
+refused 64 '^sdm-lobes: --teeth: 0: expected' sdm-lobes "$table" --teeth 0 --kt 1 --kr 1 --milling up --immersion 1
+refused 64 '^sdm-lobes: --kt: nan: expected' sdm-lobes "$table" --teeth 1 --kt nan --kr 1 --milling up --immersion 1
+refused 64 '^sdm-lobes: --modes: 16: expected at most 15' sdm-lobes "$table" --cut "$cut" --modes 16
+refused 64 '^sdm-lobes: --modes: 3-1: expected' sdm-lobes "$table" --cut "$cut" --modes 3-1
+refused 64 '^sdm-lobes: --intervals: expected with --method sdm' sdm-lobes "$table" --cut "$cut" --intervals 20
+refused 64 '^sdm-lobes: .*--method' sdm-lobes "$table" --cut "$cut" --method magic
+
+# Outputs.
+point=(sdm-lobes "$table" --cut "$cut" --speed 9000:9000:1 --depth 1:1:1)
+refused 74 '^sdm-lobes: /dev/full: cannot be written: No space left' "${point[@]}" -o /dev/full
+"${point[@]}" >/dev/full 2>.err
+check "/dev/full as standard output is an I/O error" test $? -eq 74
+refused 73 '^sdm-lobes: none/result.json: cannot be created' "${point[@]}" -o none/result.json
+mkdir folder
+refused 73 '^sdm-lobes: folder: cannot be created' "${point[@]}" -o folder
+echo before >kept.json
+refused 65 '^sdm-lobes: table.json' sdm-lobes --cut "$cut" table.json -o kept.json
+check "an old output survives a failure" test "$(cat kept.json)" = before
+check "no temporary file is left" test -z "$(find . -name '.stablecut-*')"
+if [ "$(id -u)" -ne 0 ]; then
+  touch secret.json; chmod 000 secret.json
+  refused 66 '^sdm-lobes: secret.json: cannot be read' sdm-lobes --cut "$cut" secret.json
+fi

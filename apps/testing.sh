@@ -1,0 +1,56 @@
+# Helpers of the command-line tests. Source it: it makes a scratch folder the working directory and ends with a count.
+# shellcheck shell=bash
+set -uo pipefail
+
+data=$SOURCE/testdata
+scratch=$(mktemp -d)
+cd "$scratch" || exit 1
+checks=0 failures=0
+finish() {
+  cd /
+  rm -rf "$scratch"
+  echo "$((checks - failures)) passed, $failures failed"
+  [ "$failures" -eq 0 ] && [ "$checks" -gt 0 ]
+}
+trap 'finish || exit 1' EXIT
+
+ok() { checks=$((checks + 1)); }
+bad() { checks=$((checks + 1)); failures=$((failures + 1)); echo "FAILED: $*"; }
+
+# check NAME COMMAND...: the command succeeds.
+check() { local name=$1; shift; if "$@"; then ok; else bad "$name"; fi; }
+
+# check_jq NAME FILE FILTER [JQ OPTION...]: the filter gives true.
+check_jq() {
+  local name=$1 file=$2 filter=$3; shift 3
+  if [ "$(jq "$@" "$filter" "$file" 2>&1)" = true ]; then ok; else bad "$name: $(jq -c "$@" "$filter" "$file" 2>&1 | head -c 300)"; fi
+}
+
+# refused STATUS PATTERN COMMAND...: the command ends with that status, writes nothing to standard output and one line to
+# standard error that matches the extended regular expression. Its standard input is the caller's.
+refused() {
+  local status=$1 pattern=$2 got; shift 2
+  "$@" >"$scratch/.out" 2>"$scratch/.err"; got=$?
+  if [ $got -ne "$status" ]; then bad "$* : status $got, expected $status: $(head -n 1 "$scratch/.err")"
+  elif [ -s "$scratch/.out" ]; then bad "$* : wrote to standard output"
+  elif [ "$(wc -l <"$scratch/.err")" -ne 1 ]; then bad "$* : $(wc -l <"$scratch/.err") lines on standard error: $(cat "$scratch/.err")"
+  elif ! grep -Eq -- "$pattern" "$scratch/.err"; then bad "$* : $(cat "$scratch/.err") does not match $pattern"
+  else ok; fi
+}
+
+# same_for_every_tool TOOL KIND: what the contract says of every tool.
+same_for_every_tool() {
+  local tool=$1 kind=$2
+  for option in --help --version --print-schema; do
+    "$tool" $option >.out 2>.err </dev/null
+    check "$tool $option" test $? -eq 0 -a -s .out -a ! -s .err
+  done
+  "$tool" --print-schema >.schema
+  check_jq "$tool --print-schema is $kind" .schema '.properties.format.const == "stablecut/'"$kind"'/1"'
+  refused 64 "^$tool: --print-schema: nonsense: expected one of .*$kind" "$tool" --print-schema nonsense
+  refused 64 "^$tool: .*--nonsense" "$tool" --nonsense
+  refused 64 "^$tool: --threads: 0: expected" "$tool" --threads 0
+  refused 64 "^$tool: .*expected" "$tool" --threads x
+  refused 66 "^$tool: missing.json: cannot be read" "$tool" missing.json "${@:3}"
+  refused 66 "^$tool: \.: cannot be read" "$tool" . "${@:3}"
+}
