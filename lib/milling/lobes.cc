@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "base/parallel.h"
 #include "base/units.h"
@@ -12,9 +13,11 @@
 namespace stablecut {
 namespace {
 
-constexpr double kConverged = 1e-8;   // wanted change of the spectral radius when points are added
-constexpr int kMorePoints = 3;        // how many are added to see it
-constexpr int kMostPoints = 240;      // per arc; then the error is what it is
+// Wanted change of the spectral radius when points are added, of max(1, radius). Far above the limit the radius is large
+// and nobody needs its last digits.
+constexpr double kConverged = 1e-8;
+constexpr int kMostPoints = 240;   // per arc; then the error is what it is
+constexpr int kStagnation = 3;     // refinements without improvement: rounding is what is left
 constexpr int kRungs = 64;            // least number of steps on the way to the largest depth
 constexpr double kDepthTolerance = 1e-9;
 
@@ -39,13 +42,20 @@ PreparedPeriod converged_spectral(const TipStructure& structure, const Cutter& c
   int points = first_guess(structure, cutter, revolutions_per_s);
   auto map = build(points);
   auto radius = radii(*map);
-  for (;;) {
-    auto finer = build(points + kMorePoints);
+  PreparedPeriod best;
+  best.error = std::numeric_limits<double>::infinity();
+  for (int without_gain = 0;;) {
+    const int finer_points = points + std::max(3, points / 6);
+    auto finer = build(finer_points);
     const auto finer_radius = radii(*finer);
-    const double error =
-        std::max(std::abs(finer_radius[0] - radius[0]), std::abs(finer_radius[1] - radius[1]));
-    if (error <= kConverged || points + kMorePoints > kMostPoints) return {std::move(map), error, points};
-    points += kMorePoints;
+    double error = 0;
+    for (std::size_t i = 0; i < radius.size(); ++i) {
+      error = std::max(error, std::abs(finer_radius[i] - radius[i]) / std::max(1.0, finer_radius[i]));
+    }
+    without_gain = error < best.error / 2 ? 0 : without_gain + 1;
+    if (error < best.error) best = {std::move(map), error, points};
+    if (error <= kConverged || finer_points > kMostPoints || without_gain == kStagnation) return best;
+    points = finer_points;
     map = std::move(finer);
     radius = finer_radius;
   }
@@ -111,7 +121,8 @@ PreparedPeriod prepare_period(const TipStructure& structure, const Cutter& cutte
   auto map = std::make_unique<SemiDiscretizationMap>(structure, cutter, revolutions_per_s, scheme.intervals);
   double error = 0;
   for (const double depth : {largest_depth_m, largest_depth_m / 2}) {
-    error = std::max(error, std::abs(spectral_radius(*map, depth) - spectral_radius(*spectral.map, depth)));
+    const double exact = spectral_radius(*spectral.map, depth);
+    error = std::max(error, std::abs(spectral_radius(*map, depth) - exact) / std::max(1.0, exact));
   }
   return {std::move(map), error, scheme.intervals};
 }

@@ -25,7 +25,7 @@ struct StabilityScheme {
 /// A period map at one speed with what is known of its error.
 struct PreparedPeriod {
   std::unique_ptr<PeriodMap> map;
-  /// Estimated error of the spectral radius: the change when points are added (spectral), or the distance to the
+  /// Estimated error of the spectral radius, of max(1, radius): the change when points are added (spectral), or the distance to the
   /// spectral method (semi-discretization), the worse of two depths.
   double error = 0;
   int resolution = 0;  ///< points per arc, or intervals
