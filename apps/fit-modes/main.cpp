@@ -28,12 +28,9 @@ class FitModes : public cli::Tool {
 
  private:
   void setup(CLI::App& app) override {
-    app.add_option("--from", from_, "Form of the input (default: by content)")
-        ->check(CLI::IsMember({"json", "csv"}))
-        ->type_name("json|csv");
-    app.add_option("--quantity", quantity_, "What a CSV holds (default: receptance)")
-        ->check(CLI::IsMember({"receptance", "mobility", "accelerance"}))
-        ->type_name("receptance|mobility|accelerance");
+    cli::add_choice_option(app, "--from", from_, "json|csv", "Form of the input (default: by content)");
+    cli::add_choice_option(app, "--quantity", quantity_, "receptance|mobility|accelerance",
+                           "What a CSV holds (default: receptance)");
     cli::add_band_option(app, "--band", band_, "Use only the lines in this band, Hz");
     app.add_option_function<std::string>(
            "--modes",

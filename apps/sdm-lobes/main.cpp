@@ -42,17 +42,13 @@ class SdmLobes : public cli::Tool {
         cli::add_number_option(app, "--kt", kt_, "Tangential cutting coefficient, N/mm2", "a number above 0", positive),
         cli::add_number_option(app, "--kr", kr_, "Radial cutting coefficient, N/mm2", "a number not below 0",
                                not_negative),
-        app.add_option("--milling", milling_, "Milling direction, with --immersion")
-            ->check(CLI::IsMember({"up", "down"}))
-            ->type_name("up|down"),
+        cli::add_choice_option(app, "--milling", milling_, "up|down", "Milling direction, with --immersion"),
         cli::add_number_option(app, "--immersion", immersion_, "Radial immersion ae/D", "a ratio above 0 and at most 1",
                                [](double value) { return value > 0 && value <= 1; })};
     cli::add_range_option(app, "--speed", speed_, "Spindle speeds, rpm (default: the cut's chart, else 2000:20000:64)");
     cli::add_range_option(app, "--depth", depth_, "Axial depths, mm (default: the cut's chart, else 0:5:64)");
-    app.add_option("--method", method_, "spectral: converged; sdm: the zeroth-order semi-discretization")
-        ->check(CLI::IsMember({"spectral", "sdm"}))
-        ->type_name("spectral|sdm")
-        ->capture_default_str();
+    cli::add_choice_option(app, "--method", method_, "spectral|sdm",
+                           "spectral (default): converged; sdm: the zeroth-order semi-discretization");
     cli::add_integer_option(app, "--intervals", intervals_, 1, "Intervals per tooth period, for sdm (default: 40)");
     app.add_option_function<std::string>(
            "--modes",

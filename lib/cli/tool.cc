@@ -72,6 +72,22 @@ CLI::Option* add_integer_option(CLI::App& app, const std::string& name, std::opt
                            });
 }
 
+CLI::Option* add_choice_option(CLI::App& app, const std::string& name, std::string& value, const std::string& words,
+                               const std::string& description) {
+  return app
+      .add_option_function<std::string>(
+          name,
+          [&value, name, words](const std::string& text) {
+            if (text.empty() || text.find('|') != std::string::npos ||
+                ("|" + words + "|").find("|" + text + "|") == std::string::npos) {
+              throw CLI::ValidationError(name, text + ": expected " + words);
+            }
+            value = text;
+          },
+          description)
+      ->type_name(words);
+}
+
 Tool::Tool(std::string name, std::string purpose, std::string main_kind)
     : name_(std::move(name)), main_kind_(std::move(main_kind)), app_(std::move(purpose), name_) {}
 

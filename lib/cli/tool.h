@@ -87,4 +87,8 @@ CLI::Option* add_number_option(CLI::App& app, const std::string& name, std::opti
 CLI::Option* add_integer_option(CLI::App& app, const std::string& name, std::optional<int>& value, int least,
                                 const std::string& description);
 
+/// An option whose text must be one of the words, separated by | in `words`.
+CLI::Option* add_choice_option(CLI::App& app, const std::string& name, std::string& value, const std::string& words,
+                               const std::string& description);
+
 }  // namespace stablecut::cli

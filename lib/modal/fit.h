@@ -16,7 +16,7 @@
 namespace stablecut {
 
 struct FitOptions {
-  std::optional<int> modes;  ///< how many, instead of finding out; split over independent groups by significance
+  std::optional<int> modes;  ///< how many, instead of finding out; shared evenly among independent groups
   Progress progress;
 };
 

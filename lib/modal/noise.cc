@@ -11,28 +11,43 @@ constexpr Eigen::Index kHalfWindow = 24;
 // The square of a complex Gaussian is exponential: its median is log 2 times its mean.
 const double kMedianOfExponential = std::log(2.0);
 
-}  // namespace
-
-Eigen::VectorXd estimated_variance(const Eigen::VectorXcd& values) {
-  const Eigen::Index lines = values.size();
-  if (lines < 5) return Eigen::VectorXd::Zero(lines);
-  // Sum of squares of (1, -4, 6, -4, 1) is 70.
-  Eigen::VectorXd square(lines - 4);
-  for (Eigen::Index i = 0; i < square.size(); ++i) {
-    square[i] = std::norm(values[i] - 4.0 * values[i + 1] + 6.0 * values[i + 2] - 4.0 * values[i + 3] + values[i + 4]) / 70;
-  }
-  const Eigen::Index half = lines < 12 ? lines : kHalfWindow;
-  Eigen::VectorXd variance(lines);
+// Median of `square` over a window around each line, as the mean that it stands for. Square i belongs to line i + 2.
+Eigen::VectorXd windowed_mean(const Eigen::VectorXd& square) {
+  const Eigen::Index lines = square.size() + 4;
+  const Eigen::Index half = std::min(kHalfWindow, square.size() / 2);
+  Eigen::VectorXd mean(lines);
   std::vector<double> window;
   for (Eigen::Index i = 0; i < lines; ++i) {
-    const Eigen::Index from = std::max<Eigen::Index>(0, std::min(i - 2 - half, square.size() - 1 - half));
-    const Eigen::Index to = std::min<Eigen::Index>(square.size() - 1, std::max(i - 2 + half, half));
-    window.assign(square.begin() + from, square.begin() + to + 1);
-    const auto middle = window.begin() + static_cast<std::ptrdiff_t>(window.size() / 2);
+    const Eigen::Index centre = std::clamp<Eigen::Index>(i - 2, half, square.size() - 1 - half);
+    window.assign(square.begin() + centre - half, square.begin() + centre + half + 1);
+    const auto middle = window.begin() + half;
     std::nth_element(window.begin(), middle, window.end());
-    variance[i] = *middle / kMedianOfExponential;
+    mean[i] = *middle / kMedianOfExponential;
   }
-  return variance;
+  return mean;
+}
+
+// Log-likelihood of squared complex Gaussians.
+double likelihood(const Eigen::VectorXd& square, const Eigen::VectorXd& variance) {
+  const auto inner = variance.segment(2, square.size()).array().max(1e-300);
+  return -(inner.log() + square.array() / inner).sum();
+}
+
+}  // namespace
+
+Eigen::VectorXd estimated_variance(const Eigen::VectorXcd& values, const Eigen::VectorXd& size) {
+  const Eigen::Index lines = values.size();
+  if (lines < 6) return Eigen::VectorXd::Zero(lines);
+  // Sum of squares of (1, -4, 6, -4, 1) is 70.
+  const Eigen::Index count = lines - 4;
+  const Eigen::VectorXd square = (values.head(count) - 4.0 * values.segment(1, count) + 6.0 * values.segment(2, count) -
+                                  4.0 * values.segment(3, count) + values.tail(count))
+                                     .cwiseAbs2() / 70;
+  const Eigen::VectorXd plain = windowed_mean(square);
+  const Eigen::VectorXd size_square = size.cwiseAbs2().array().max(1e-300);
+  const Eigen::VectorXd following =
+      windowed_mean(square.cwiseQuotient(size_square.segment(2, count))).cwiseProduct(size_square);
+  return likelihood(square, following) > likelihood(square, plain) ? following : plain;
 }
 
 double correlation_length(const Eigen::VectorXcd& residual) {

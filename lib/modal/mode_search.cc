@@ -1,0 +1,318 @@
+#include "modal/mode_search.h"
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "modal/noise.h"
+#include "modal/pole_sums.h"
+#include "modal/vector_fitting.h"
+
+namespace stablecut {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr Eigen::Index kStartPairs = 30;
+constexpr int kRelocations = 12;
+constexpr int kRelocationsAfterPruning = 4;
+constexpr int kTrialSteps = 12;       // of a refinement that only has to tell whether a mode pays
+constexpr int kStartSteps = 24;      // of the first refinement, of many candidates
+constexpr int kFinalSteps = 60;
+constexpr int kRescues = 3;
+constexpr double kBeyondDoubt = 100;  // times the price
+// Weights never claim less noise than these shares of the value, and than a part of that of the curve's RMS. Computed
+// receptances have no noise at all, and rounding must not decide the number of modes; the coarse floor finds it, the
+// fine one then takes what the numbers hold.
+constexpr double kCoarseFloor = 1e-4;
+constexpr double kFineFloor = 1e-7;
+constexpr double kRmsShare = 0.01;
+// Misfit over noise from which on the noise is not what limits the fit.
+constexpr double kModelErrorFactor = 1.5;
+// Where the model cannot reach the noise (a nonlinear joint, hysteretic damping, a leaking window), the residual is not
+// made of modes. Above this relative error a mode has to take away the lesser share of the residual to be one, below
+// it the larger.
+constexpr double kModelErrorFloor = 0.045;
+constexpr double kLesserShare = 0.05;
+constexpr double kLargerShare = 0.3;
+// A mode narrower than this many line spacings cannot be told from one disturbed line.
+constexpr double kLeastHalfWidth = 0.2;
+
+// How much of the weighted residual one pole takes away, and its residue.
+double single_pole_gain(const PoleValues& values, const Eigen::VectorXd& weight, const Eigen::VectorXcd& residual,
+                               Complex& residue) {
+  Eigen::Matrix2d gram = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d projection = Eigen::Vector2d::Zero();
+  for (Eigen::Index i = 0; i < residual.size(); ++i) {
+    const Complex sum = values.phi(i, 0) + values.phi_conj(i, 0);
+    const Complex difference = Complex(0, 1) * (values.phi(i, 0) - values.phi_conj(i, 0));
+    gram(0, 0) += weight[i] * std::norm(sum);
+    gram(1, 1) += weight[i] * std::norm(difference);
+    gram(0, 1) += weight[i] * (std::conj(sum) * difference).real();
+    projection[0] += weight[i] * (std::conj(sum) * residual[i]).real();
+    projection[1] += weight[i] * (std::conj(difference) * residual[i]).real();
+  }
+  gram(1, 0) = gram(0, 1);
+  const Eigen::Vector2d solution = gram.inverse() * projection;
+  residue = {solution[0], solution[1]};
+  return solution.allFinite() ? solution.dot(projection) : 0.0;
+}
+
+}  // namespace
+
+ModeSearch::ModeSearch(FitData data, std::vector<Eigen::VectorXd> variance, std::optional<int> wanted_modes)
+    : data_(std::move(data)),
+      variance_(std::move(variance)),
+      estimate_noise_(variance_.empty()),
+      wanted_modes_(wanted_modes),
+      floor_(kCoarseFloor) {
+  if (estimate_noise_) {
+    for (const Curve& curve : data_.curves) variance_.push_back(estimated_variance(curve.h, curve.h.cwiseAbs()));
+  }
+  set_weights();
+}
+
+void ModeSearch::run(const Progress& progress) {
+  progress_ = progress;
+  find_modes();
+  if (estimate_noise_) reweight();
+  // A few modes may have been overlooked; if it is not that, there is no use in weighing modes against noise.
+  for (int attempt = 0; attempt < kRescues && exceeds_noise() && add_mode(); ++attempt) {
+  }
+  if (!exceeds_noise()) select();
+  if (exceeds_noise()) {
+    build_up();
+  } else if (floor_matters()) {
+    tighten();
+  }
+  current_ = refine_modes(data_, current_.modes, 4 * kFinalSteps);
+}
+
+
+// ---- weights ----
+
+void ModeSearch::set_weights() {
+  for (std::size_t e = 0; e < data_.curves.size(); ++e) {
+    Curve& curve = data_.curves[e];
+    const double rms = std::sqrt(curve.h.squaredNorm() / static_cast<double>(data_.lines()));
+    const double of_rms = limited_by_model_ ? kModelErrorFloor : kRmsShare * floor_;
+    curve.weight =
+        (variance_[e].array() + floor_ * floor_ * curve.h.array().abs2() + std::pow(of_rms * rms, 2)).inverse();
+  }
+}
+
+// Noise from what the model leaves.
+void ModeSearch::reweight() {
+  for (std::size_t e = 0; e < data_.curves.size(); ++e) {
+    const Curve& curve = data_.curves[e];
+    const Eigen::VectorXcd model = curve_of(current_.modes, curve, data_.s);
+    variance_[e] = estimated_variance(model - curve.h, model.cwiseAbs());
+  }
+  set_weights();
+  current_ = refine_modes(data_, current_.modes, kFinalSteps);
+}
+
+bool ModeSearch::exceeds_noise() const { return current_.chi_square / complex_values() > kModelErrorFactor; }
+
+// Whether the floor, not the noise, decides some weights.
+bool ModeSearch::floor_matters() const {
+  double share = 0;
+  for (const Curve& curve : data_.curves) share += floor_ * floor_ * curve.h.cwiseAbs2().dot(curve.weight);
+  return share > 0.01 * complex_values();
+}
+
+// Nearly no noise: the same again with all that the numbers hold, unless the model cannot follow.
+void ModeSearch::tighten() {
+  const RefinedModes coarse = current_;
+  const double coarse_floor = std::exchange(floor_, kFineFloor);
+  set_weights();
+  current_ = refine_modes(data_, current_.modes, kFinalSteps);
+  if (estimate_noise_) reweight();
+  select();
+  if (!exceeds_noise()) return;
+  floor_ = coarse_floor;
+  set_weights();
+  current_ = coarse;
+}
+
+// The model error takes over: curves weigh by their size, and modes are found from the strongest on.
+void ModeSearch::build_up() {
+  limited_by_model_ = true;
+  set_weights();
+  current_ = refine_modes(data_, {}, 0);
+  select();
+}
+
+// |model - h| / |h|, root mean square over the curves.
+double ModeSearch::relative_error(const std::vector<Mode>& modes) const {
+  double sum = 0;
+  for (const Curve& curve : data_.curves) {
+    sum += (curve_of(modes, curve, data_.s) - curve.h).squaredNorm() / curve.h.squaredNorm();
+  }
+  return std::sqrt(sum / static_cast<double>(data_.curves.size()));
+}
+
+// ---- the price of a mode ----
+
+// Chi-square that a mode must take away: half its real parameters times the log of the number of values (Schwarz). A
+// residual that is larger than the noise, or smooth over lines, holds less information than its length.
+double ModeSearch::price(const RefinedModes& without) const {
+  const double parameters = 2.0 + 2.0 * static_cast<double>(2 * data_.dofs - 1);
+  const double information = (parameters / 2) * std::log(data_.values());
+  if (limited_by_model_) {
+    const double share = relative_error(without.modes) > kModelErrorFloor ? kLesserShare : kLargerShare;
+    return std::max(information, share * without.chi_square);
+  }
+  const double spread = std::max(1.0, without.chi_square / complex_values());
+  double length = 0;
+  for (const Curve& curve : data_.curves) {
+    const Eigen::VectorXcd residual = curve_of(without.modes, curve, data_.s) - curve.h;
+    length += correlation_length(curve.weight.cwiseSqrt().cwiseProduct(residual));
+  }
+  return information * spread * length / static_cast<double>(data_.curves.size());
+}
+
+// ---- candidates ----
+
+void ModeSearch::find_modes() {
+  const Eigen::Index pairs = std::min(kStartPairs, data_.lines() / 3);
+  Eigen::VectorXcd poles = starting_poles(data_, pairs);
+  for (int i = 0; i < kRelocations; ++i) poles = relocate_poles(data_, poles);
+  while (poles.size() > 1) {
+    const LinearResidues linear = linear_residues(data_, poles);
+    const double spread = std::max(1.0, linear.chi_square / complex_values());
+    const double least = spread * static_cast<double>(2 * data_.curves.size()) * std::log(data_.values());
+    std::vector<Eigen::Index> order(static_cast<std::size_t>(poles.size()));
+    std::iota(order.begin(), order.end(), Eigen::Index{0});
+    std::sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
+      return linear.removal_loss[a] < linear.removal_loss[b];
+    });
+    const auto worthless = std::count_if(order.begin(), order.end(), [&](Eigen::Index k) {
+      return linear.removal_loss[k] < least;
+    });
+    if (worthless == 0) break;
+    const auto dropped = std::clamp<std::ptrdiff_t>(worthless / 3, 1, worthless);
+    std::vector<Eigen::Index> kept(order.begin() + dropped, order.end());
+    std::sort(kept.begin(), kept.end());
+    poles = poles(kept).eval();
+    for (int i = 0; i < kRelocationsAfterPruning; ++i) poles = relocate_poles(data_, poles);
+  }
+  const LinearResidues linear = linear_residues(data_, poles);
+  std::vector<Mode> modes;
+  for (Eigen::Index k = 0; k < poles.size(); ++k) modes.push_back(rank_one(poles[k], linear.residue.row(k)));
+  current_ = refine_modes(data_, modes, kStartSteps);
+}
+
+// The mode whose residue is nearest to the curves' residues; a missing curve counts as its mirror image, or as zero.
+Mode ModeSearch::rank_one(Complex pole, const Eigen::RowVectorXcd& residue) const {
+  Eigen::MatrixXcd matrix = Eigen::MatrixXcd::Zero(data_.dofs, data_.dofs);
+  for (std::size_t e = 0; e < data_.curves.size(); ++e) {
+    const Curve& curve = data_.curves[e];
+    const Complex value = residue[static_cast<Eigen::Index>(e)];
+    matrix(curve.response, curve.reference) = value;
+    const bool mirror_missing = std::none_of(data_.curves.begin(), data_.curves.end(), [&](const Curve& other) {
+      return other.response == curve.reference && other.reference == curve.response;
+    });
+    if (mirror_missing) matrix(curve.reference, curve.response) = value;
+  }
+  const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(matrix, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  Mode mode;
+  set_pole(mode, pole);
+  mode.psi_r = svd.matrixU().col(0);
+  mode.psi_l = svd.singularValues()[0] * svd.matrixV().col(0).conjugate();
+  return mode;
+}
+
+// ---- selection ----
+
+void ModeSearch::select() {
+  for (int round = 0; round < 60; ++round) {
+    remove_modes();
+    if (progress_) progress_(std::min(0.99, 0.5 + 0.01 * round));
+    if (!add_mode()) break;
+  }
+}
+
+// Takes modes away, the least important first, as long as that costs less than they must be worth.
+void ModeSearch::remove_modes() {
+  const std::size_t least = wanted_modes_ ? static_cast<std::size_t>(*wanted_modes_) : 1;
+  while (current_.modes.size() > least) {
+    std::vector<std::size_t> order(current_.modes.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return std::pair(!is_too_narrow(current_.modes[a]), loss(a)) < std::pair(!is_too_narrow(current_.modes[b]), loss(b));
+    });
+    bool removed = false;
+    for (std::size_t attempt = 0; attempt < std::min<std::size_t>(3, order.size()) && !removed; ++attempt) {
+      removed = remove_if_worthless(order[attempt]);
+    }
+    if (!removed) return;
+  }
+}
+
+bool ModeSearch::remove_if_worthless(std::size_t k) {
+  // The second-order loss is a good guess: no trial where it says that the mode matters beyond doubt.
+  const bool forced = wanted_modes_.has_value() || is_too_narrow(current_.modes[k]);
+  if (!forced && loss(k) > kBeyondDoubt * price(current_)) return false;
+  std::vector<Mode> fewer = current_.modes;
+  fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
+  RefinedModes trial = refine_modes(data_, fewer, kTrialSteps);
+  if (!forced && trial.chi_square - current_.chi_square >= price(trial)) return false;
+  current_ = std::move(trial);
+  return true;
+}
+
+double ModeSearch::line_spacing() const {
+  return (data_.s[data_.lines() - 1] - data_.s[0]).imag() / static_cast<double>(data_.lines() - 1);
+}
+
+bool ModeSearch::is_too_narrow(const Mode& mode) const {
+  return -mode.pole().real() < kLeastHalfWidth * line_spacing();
+}
+
+// Tries a mode where the residual asks most for one. True when it pays.
+bool ModeSearch::add_mode() {
+  if (wanted_modes_ && static_cast<int>(current_.modes.size()) >= *wanted_modes_) return false;
+  const Mode candidate = best_addition();
+  std::vector<Mode> more = current_.modes;
+  more.push_back(candidate);
+  RefinedModes trial = refine_modes(data_, more, 2 * kTrialSteps);
+  const double least_gain = wanted_modes_ ? 0.0 : price(current_);
+  if (!(current_.chi_square - trial.chi_square > least_gain)) return false;
+  if (std::any_of(trial.modes.begin(), trial.modes.end(), [&](const Mode& mode) { return is_too_narrow(mode); })) {
+    return false;
+  }
+  current_ = std::move(trial);
+  return true;
+}
+
+Mode ModeSearch::best_addition() const {
+  std::vector<Eigen::VectorXcd> residual;
+  for (const Curve& curve : data_.curves) residual.push_back(curve.h - curve_of(current_.modes, curve, data_.s));
+  const double hi = data_.s[data_.lines() - 1].imag();
+  const double spacing = line_spacing();
+  const double lo = std::max(data_.s[0].imag(), spacing);
+  double best_gain = -1;
+  Mode best;
+  for (const double zeta : {0.004, 0.02, 0.08, 0.3}) {
+    for (double omega = lo; omega <= hi; omega += std::max(zeta * omega, spacing / 2)) {
+      const Complex pole = omega * Complex(-zeta, std::sqrt(1 - zeta * zeta));
+      const PoleValues values(data_.s, Eigen::VectorXcd::Constant(1, pole));
+      Eigen::RowVectorXcd residue(static_cast<Eigen::Index>(data_.curves.size()));
+      double gain = 0;
+      for (std::size_t e = 0; e < data_.curves.size(); ++e) {
+        gain += single_pole_gain(values, data_.curves[e].weight, residual[e], residue[static_cast<Eigen::Index>(e)]);
+      }
+      if (gain > best_gain) {
+        best_gain = gain;
+        best = rank_one(pole, residue);
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace stablecut

@@ -1,0 +1,63 @@
+// The search for the modes of one independent group of directions.
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+#include <optional>
+#include <vector>
+
+#include "base/progress.h"
+#include "modal/fit_data.h"
+#include "modal/maximum_likelihood.h"
+
+namespace stablecut {
+
+/// Candidates by vector fitting, then a balance of likelihood: a mode stays when taking it away costs more than its
+/// parameters are worth, and is added where the residual asks for one.
+class ModeSearch {
+ public:
+  /// `variance` [curves][lines] of the noise; empty: estimated from the curves and from what the model leaves. The
+  /// weights of `data` are set here. With `wanted_modes` that many are kept, whatever they are worth.
+  ModeSearch(FitData data, std::vector<Eigen::VectorXd> variance, std::optional<int> wanted_modes);
+
+  void run(const Progress& progress);
+
+  const FitData& data() const { return data_; }
+  const RefinedModes& result() const { return current_; }
+  /// The residual is larger than the noise, and not made of modes.
+  bool limited_by_model() const { return limited_by_model_; }
+  /// Number of complex values fitted.
+  double complex_values() const { return data_.values() / 2; }
+
+ private:
+  void set_weights();
+  void reweight();
+  bool exceeds_noise() const;
+  bool floor_matters() const;
+  void tighten();
+  void build_up();
+  double relative_error(const std::vector<Mode>& modes) const;
+  double price(const RefinedModes& without) const;
+
+  void find_modes();
+  Mode rank_one(std::complex<double> pole, const Eigen::RowVectorXcd& residue) const;
+  void select();
+  void remove_modes();
+  bool remove_if_worthless(std::size_t k);
+  bool add_mode();
+  Mode best_addition() const;
+  double loss(std::size_t k) const { return current_.removal_loss[static_cast<Eigen::Index>(k)]; }
+  double line_spacing() const;
+  bool is_too_narrow(const Mode& mode) const;
+
+  FitData data_;
+  std::vector<Eigen::VectorXd> variance_;  // of the noise, per curve
+  bool estimate_noise_;
+  std::optional<int> wanted_modes_;
+  Progress progress_;
+  bool limited_by_model_ = false;
+  double floor_;
+  RefinedModes current_;
+};
+
+}  // namespace stablecut
