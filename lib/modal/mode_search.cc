@@ -38,8 +38,8 @@ constexpr double kModelErrorFactor = 1.5;
 constexpr double kModelErrorFloor = 0.045;
 constexpr double kLesserShare = 0.05;
 constexpr double kLargerShare = 0.3;
-// A mode narrower than this many line spacings cannot be told from one disturbed line.
-constexpr double kLeastHalfWidth = 0.2;
+// A pole on a line and narrower than this many line spacings moves that line alone: a disturbed line, not a mode.
+constexpr double kLeastHalfWidth = 0.02;
 
 // How much of the weighted residual one pole takes away, and its residue.
 double single_pole_gain(const PoleValues& values, const Eigen::VectorXd& weight, const Eigen::VectorXcd& residual,
