@@ -17,7 +17,8 @@ namespace {
 // and nobody needs its last digits.
 constexpr double kConverged = 1e-8;
 constexpr int kMostPoints = 240;   // per arc; then the error is what it is
-constexpr int kStagnation = 3;     // refinements without improvement: rounding is what is left
+constexpr int kStagnation = 3;     // refinements without improvement, once below
+constexpr double kNearRounding = 1e-5;  // this: rounding is what is left
 constexpr int kRungs = 64;            // least number of steps on the way to the largest depth
 constexpr double kDepthTolerance = 1e-9;
 
@@ -52,7 +53,7 @@ PreparedPeriod converged_spectral(const TipStructure& structure, const Cutter& c
     for (std::size_t i = 0; i < radius.size(); ++i) {
       error = std::max(error, std::abs(finer_radius[i] - radius[i]) / std::max(1.0, finer_radius[i]));
     }
-    without_gain = error < best.error / 2 ? 0 : without_gain + 1;
+    without_gain = error < best.error / 2 || error > kNearRounding ? 0 : without_gain + 1;
     if (error < best.error) best = {std::move(map), error, points};
     if (error <= kConverged || finer_points > kMostPoints || without_gain == kStagnation) return best;
     points = finer_points;
