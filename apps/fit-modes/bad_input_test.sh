@@ -35,10 +35,10 @@ head -c 3000 good.json >truncated.json
 refused 65 '^fit-modes: truncated.json: line [0-9]+: /' fit-modes truncated.json
 printf '1,2,3\n2,oops,3\n' >bad.csv
 refused 65 '^fit-modes: bad.csv: line 2: "oops": expected a real part in column 2' fit-modes bad.csv
-refused 65 'expected at least 8 lines' fit-modes --band 1:3 good.json
+refused 65 '^fit-modes: good.json: expected at least 8 lines' fit-modes --band 1:3 good.json
 refused 65 '^fit-modes: good.json: no lines in the band' fit-modes --band 1000:3000 good.json
 jq '.h |= map(.re |= map(0) | .im |= map(0))' good.json >zeros.json
-refused 1 '^fit-modes: all entries are zero' fit-modes zeros.json
+refused 1 '^fit-modes: zeros.json: all entries are zero' fit-modes zeros.json
 
 refused 64 '^fit-modes: --band: 5: expected LO:HI' fit-modes --band 5 good.json
 refused 64 '^fit-modes: --modes: many: expected auto or a number' fit-modes --modes many good.json

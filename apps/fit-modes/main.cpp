@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/error.h"
 #include "cli/exit_status.h"
 #include "cli/progress_bar.h"
 #include "cli/tool.h"
@@ -82,10 +83,8 @@ class FitModes : public cli::Tool {
 
   void fit() {
     const FrequencyResponse measured = read_receptance();
-    cli::ProgressBar bar("fit-modes", !quiet());
-    const ModalFit result = fit_modes(measured, {modes_, [&](double share) { bar.show(share); }});
-    if (!result.converged) throw cli::Failure(cli::ExitStatus::kNoAnswer, "the fit did not converge");
-    for (const std::string& text : result.warnings) warn(text);
+    const ModalFit result = fit_measured(measured);
+    for (const std::string& text : result.warnings) warn(input_name_ + ": " + text);
 
     Json document = modal_table_to_json(result.model);
     document["fit"] = fit_report(result, measured);
@@ -96,9 +95,24 @@ class FitModes : public cli::Tool {
     }
   }
 
+  // Failures with the input's name before them.
+  ModalFit fit_measured(const FrequencyResponse& measured) const {
+    try {
+      cli::ProgressBar bar("fit-modes", !quiet());
+      ModalFit result = fit_modes(measured, {modes_, [&](double share) { bar.show(share); }});
+      if (!result.converged) throw NoAnswer("the fit did not converge");
+      return result;
+    } catch (const InvalidArgument& error) {
+      throw DataError(input_name_, "", "", error.what());
+    } catch (const NoAnswer& answer) {
+      throw NoAnswer(input_name_ + ": " + answer.what());
+    }
+  }
+
   // The measurement in the band, as a receptance.
   FrequencyResponse read_receptance() {
     const cli::Input input = read_main_input(from_ == "json");
+    input_name_ = input.source.name;
     FrequencyResponse frf;
     if (from_ == "csv" || (from_.empty() && input.document.is_null())) {
       if (!quantity_.empty()) frf.quantity = quantity_from_name(quantity_);
@@ -139,7 +153,7 @@ class FitModes : public cli::Tool {
     return report;
   }
 
-  std::string from_, quantity_, fitted_path_;
+  std::string from_, quantity_, fitted_path_, input_name_;
   std::optional<Range> band_, synthesize_;
   std::optional<int> modes_, seed_;
   std::optional<double> noise_db_, noise_floor_db_;

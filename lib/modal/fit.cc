@@ -59,6 +59,44 @@ std::vector<Eigen::VectorXd> known_variances(const FrequencyResponse& measured, 
   return result;
 }
 
+// Vector components that no curve of the group shows, because nothing was measured or nothing pushed in that direction:
+// set by reciprocity from a direction in which both was done, else zero. True when there was any.
+bool complete_by_reciprocity(const FitData& data, Mode& mode) {
+  std::vector<bool> seen_r(static_cast<std::size_t>(data.dofs)), seen_l(seen_r.size());
+  for (const Curve& curve : data.curves) {
+    seen_r[static_cast<std::size_t>(curve.response)] = true;
+    seen_l[static_cast<std::size_t>(curve.reference)] = true;
+  }
+  Complex ratio = 0;  // psi_l / psi_r where both are known and largest
+  double best = 0;
+  for (std::size_t i = 0; i < seen_r.size(); ++i) {
+    const Complex r = mode.psi_r[static_cast<Eigen::Index>(i)], l = mode.psi_l[static_cast<Eigen::Index>(i)];
+    if (seen_r[i] && seen_l[i] && std::abs(r * l) > best) {
+      best = std::abs(r * l);
+      ratio = l / r;
+    }
+  }
+  bool any = false;
+  for (std::size_t i = 0; i < seen_r.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    if (!seen_l[i]) mode.psi_l[at] = mode.psi_r[at] * ratio;
+    if (!seen_r[i]) mode.psi_r[at] = best > 0 ? mode.psi_l[at] / ratio : 0.0;
+    any = any || !seen_l[i] || !seen_r[i];
+  }
+  return any;
+}
+
+// Entries that the document does not have although it has both of their directions.
+std::string missing_entries(const FrequencyResponse& measured, const std::vector<std::string>& dofs) {
+  std::string list;
+  for (const std::string& response : dofs) {
+    for (const std::string& reference : dofs) {
+      if (measured.find(response, reference) == nullptr) list += (list.empty() ? "" : ", ") + response + reference;
+    }
+  }
+  return list;
+}
+
 // A group's share of the number of modes that was asked for; the first groups take the rest.
 std::optional<int> wanted_modes(const FitOptions& options, std::size_t groups, std::size_t group) {
   if (!options.modes) return std::nullopt;
@@ -81,6 +119,7 @@ ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options)
   fit.model.dofs = direction_names(measured);
   fit.variance_given = true;
   fit.converged = true;
+  bool by_reciprocity = false;
   double chi_square = 0, values = 0, error_square = 0, square = 0;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const DirectionGroup& group = groups[g];
@@ -101,7 +140,8 @@ ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options)
                             directions[static_cast<std::size_t>(curve.reference)], error.norm() / curve.h.norm(),
                             error.cwiseAbs2().dot(curve.weight) / static_cast<double>(error.size())});
     }
-    for (const Mode& mode : part.result().modes) {
+    for (Mode mode : part.result().modes) {
+      by_reciprocity = complete_by_reciprocity(part.data(), mode) || by_reciprocity;
       // Into all directions: exact zeros where the group does not reach.
       Mode whole = mode;
       whole.psi_r = whole.psi_l = Eigen::VectorXcd::Zero(static_cast<Eigen::Index>(fit.model.dofs.size()));
@@ -121,6 +161,12 @@ ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options)
                    [](const Mode& a, const Mode& b) { return a.frequency_hz < b.frequency_hz; });
   fit.relative_error = std::sqrt(error_square / square);
   fit.reduced_chi_square = chi_square / values;
+  const std::string missing = missing_entries(measured, fit.model.dofs);
+  if (by_reciprocity) {
+    fit.warnings.push_back("missing entries " + missing + ": what they would tell is filled in by reciprocity");
+  } else if (!missing.empty() && groups.size() > 1) {
+    fit.warnings.push_back("missing entries " + missing + ": these directions are taken as uncoupled");
+  }
   if (fit.model.modes.empty()) throw NoAnswer("no mode stands out of the noise");
   return fit;
 }

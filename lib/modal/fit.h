@@ -39,6 +39,9 @@ struct ModalFit {
   std::vector<std::string> warnings;
 };
 
+/// A vector component that no entry shows (no force in that direction, or no response) is set by reciprocity, with a
+/// warning. Directions that only missing entries could connect are taken as uncoupled, with a warning.
+///
 /// `measured` must be a receptance with at least 8 lines above 0 Hz. Throws InvalidArgument for data that cannot be
 /// fitted, NoAnswer when no mode stands out.
 ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options = {});

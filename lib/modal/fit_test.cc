@@ -144,3 +144,27 @@ TEST_CASE("what cannot be fitted is said") {
   for (auto& entry : zeros.entries) entry.h.setZero();
   CHECK_THROWS_AS(fit_modes(zeros), NoAnswer);
 }
+
+TEST_CASE("what was not measured is filled in by reciprocity, and said") {
+  ModalModel truth = fixtures::close_pair();
+  for (Mode& mode : truth.modes) mode.psi_l = mode.psi_r * Complex(0, -1e-4);  // symmetric
+  FrequencyResponse measured = synthesize(truth, kLines);
+  std::erase_if(measured.entries, [](const auto& entry) { return entry.reference == "y"; });
+  const ModalFit fit = fit_modes(measured);
+  REQUIRE(fit.warnings.size() == 1);
+  CHECK(fit.warnings[0].find("xy, yy") != std::string::npos);
+  REQUIRE(fit.model.modes.size() == truth.modes.size());
+  for (std::size_t k = 0; k < truth.modes.size(); ++k) {
+    const Mode expected = normalised(truth.modes[k]);
+    CHECK((fit.model.modes[k].psi_l - expected.psi_l).norm() < 1e-6 * expected.psi_l.norm());
+  }
+}
+
+TEST_CASE("two driving points alone are two uncoupled structures, and that is said") {
+  FrequencyResponse measured = synthesize(fixtures::close_pair(), kLines);
+  std::erase_if(measured.entries, [](const auto& entry) { return entry.response != entry.reference; });
+  const ModalFit fit = fit_modes(measured);
+  REQUIRE(fit.warnings.size() == 1);
+  CHECK(fit.warnings[0].find("uncoupled") != std::string::npos);
+  CHECK(rebuild_error(fit, measured) < 1e-6);
+}
