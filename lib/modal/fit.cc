@@ -125,9 +125,13 @@ ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options)
     const DirectionGroup& group = groups[g];
     const std::vector<std::string> directions = group_directions(measured, group, fit.model.dofs);
     std::vector<Eigen::VectorXd> variance = known_variances(measured, group);
-    fit.variance_given = fit.variance_given && !variance.empty();
+    const bool given = !variance.empty();
     ModeSearch part(group_data(measured, group, directions), std::move(variance), wanted_modes(options, groups.size(), g));
     part.run(options.progress);
+    fit.variance_given = fit.variance_given && !part.noise_estimated();
+    if (given && part.noise_estimated()) {
+      fit.warnings.push_back("the residual is much larger than the given variance: the noise was estimated instead");
+    }
     fit.converged = fit.converged && part.result().converged;
     fit.limited_by_model = fit.limited_by_model || part.limited_by_model();
     chi_square += part.result().chi_square;

@@ -168,3 +168,15 @@ TEST_CASE("two driving points alone are two uncoupled structures, and that is sa
   CHECK(fit.warnings[0].find("uncoupled") != std::string::npos);
   CHECK(rebuild_error(fit, measured) < 1e-6);
 }
+
+TEST_CASE("a variance that is much too small is not believed") {
+  const ModalModel truth = fixtures::close_pair();
+  FrequencyResponse measured = synthesize(truth, kLines);
+  add_noise(measured, {{}, 40.0, 3});
+  for (auto& entry : measured.entries) entry.variance *= 0.05;
+  const ModalFit fit = fit_modes(measured);
+  CHECK(fit.model.modes.size() == truth.modes.size());
+  CHECK_FALSE(fit.variance_given);
+  CHECK_FALSE(fit.limited_by_model);
+  CHECK(fit.warnings.size() == 1);
+}

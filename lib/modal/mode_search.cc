@@ -79,8 +79,12 @@ void ModeSearch::run(const Progress& progress) {
   progress_ = progress;
   find_modes();
   if (estimate_noise_) reweight();
-  // A few modes may have been overlooked; if it is not that, there is no use in weighing modes against noise.
-  for (int attempt = 0; attempt < kRescues && exceeds_noise() && add_mode(); ++attempt) {
+  rescue();
+  if (exceeds_noise() && !estimate_noise_) {
+    // The variance that came with the data may be too small: see what the residual says of the noise.
+    estimate_noise_ = true;
+    reweight();
+    rescue();
   }
   if (!exceeds_noise()) select();
   if (exceeds_noise()) {
@@ -91,6 +95,11 @@ void ModeSearch::run(const Progress& progress) {
   current_ = refine_modes(data_, current_.modes, 4 * kFinalSteps);
 }
 
+// A few modes may have been overlooked; if it is not that, there is no use in weighing modes against noise.
+void ModeSearch::rescue() {
+  for (int attempt = 0; attempt < kRescues && exceeds_noise() && add_mode(); ++attempt) {
+  }
+}
 
 // ---- weights ----
 

@@ -26,10 +26,13 @@ class ModeSearch {
   const RefinedModes& result() const { return current_; }
   /// The residual is larger than the noise, and not made of modes.
   bool limited_by_model() const { return limited_by_model_; }
+  /// The weights come from an estimate of the noise: none was given, or the residual is larger than it by far.
+  bool noise_estimated() const { return estimate_noise_; }
   /// Number of complex values fitted.
   double complex_values() const { return data_.values() / 2; }
 
  private:
+  void rescue();
   void set_weights();
   void reweight();
   bool exceeds_noise() const;
