@@ -141,7 +141,7 @@ ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options)
       error_square += error.squaredNorm();
       square += curve.h.squaredNorm();
       fit.curves.push_back({directions[static_cast<std::size_t>(curve.response)],
-                            directions[static_cast<std::size_t>(curve.reference)], error.norm() / curve.h.norm(),
+                            directions[static_cast<std::size_t>(curve.reference)], curve.h.isZero(0) ? 0.0 : error.norm() / curve.h.norm(),
                             error.cwiseAbs2().dot(curve.weight) / static_cast<double>(error.size())});
     }
     for (Mode mode : part.result().modes) {
@@ -165,11 +165,18 @@ ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options)
                    [](const Mode& a, const Mode& b) { return a.frequency_hz < b.frequency_hz; });
   fit.relative_error = std::sqrt(error_square / square);
   fit.reduced_chi_square = chi_square / values;
+  if (options.modes && static_cast<int>(fit.model.modes.size()) < *options.modes) {
+    fit.warnings.push_back("only " + std::to_string(fit.model.modes.size()) + " modes could be told apart");
+  }
   const std::string missing = missing_entries(measured, fit.model.dofs);
   if (by_reciprocity) {
     fit.warnings.push_back("missing entries " + missing + ": what they would tell is filled in by reciprocity");
   } else if (!missing.empty() && groups.size() > 1) {
     fit.warnings.push_back("missing entries " + missing + ": these directions are taken as uncoupled");
+  }
+  if (fit.limited_by_model) {
+    fit.warnings.push_back("the residual is larger than the noise and not made of modes: fitted by the strongest modes to " +
+                           std::to_string(std::lround(100 * fit.relative_error)) + " %");
   }
   if (fit.model.modes.empty()) throw NoAnswer("no mode stands out of the noise");
   return fit;

@@ -29,7 +29,7 @@ struct FitData {
 
 /// Directions that only exact zeros (or nothing) connect are independent structures: each group is fitted alone.
 struct DirectionGroup {
-  std::vector<std::size_t> entries;  ///< of the frequency response, those that are not all zeros
+  std::vector<std::size_t> entries;  ///< of the frequency response: all between directions of the group
 };
 
 /// The groups in the order of their first entry.

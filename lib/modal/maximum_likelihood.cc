@@ -1,6 +1,7 @@
 #include "modal/maximum_likelihood.h"
 
 #include <ceres/ceres.h>
+#include <glog/logging.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -14,17 +15,23 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Bounds of decay rates and frequencies, in units of the highest line.
-constexpr double kLeastRate = 1e-6;
-constexpr double kLargestRate = 100;
+// Bounds: of -Re lambda / Im lambda, and of Im lambda in units of the highest line.
+constexpr double kLeastRatio = 1e-6, kLargestRatio = 3;
+constexpr double kLeastRate = 1e-5, kLargestRate = 20;
+// What holds for a mode outside the band when the data do not say: -Re / Im, and the deviations of the logarithms.
+constexpr double kResidualDamping = 0.05;
+constexpr double kResidualDampingDeviation = 0.5;
+constexpr double kResidualPlaceDeviation = 1;
 constexpr double kRidge = 1e-13;  // of the diagonal, so that a mode without residue does not stop the factorization
 
 // How the real parameter vector describes the modes:
-//   log(-Re lambda), log(Im lambda), then Re and Im of psi_r without its pivot (which stays 1), of psi_l.
+//   log(-Re lambda / Im lambda), log(Im lambda), then Re and Im of psi_r without its pivot (which stays 1), of psi_l.
 class Parametrization {
  public:
-  Parametrization(const std::vector<Mode>& modes, Eigen::Index dofs) : dofs_(dofs) {
+  Parametrization(const std::vector<Mode>& modes, const FitData& data) : dofs_(data.dofs) {
     for (const Mode& mode : modes) {
+      const double omega = mode.pole().imag();
+      out_of_band_.push_back(omega < data.s[0].imag() || omega > data.s[data.lines() - 1].imag());
       Eigen::Index pivot = 0;
       mode.psi_r.cwiseAbs().maxCoeff(&pivot);
       pivot_.push_back(pivot);
@@ -35,6 +42,7 @@ class Parametrization {
   Eigen::Index per_mode() const { return 2 + 2 * (dofs_ - 1) + 2 * dofs_; }
   Eigen::Index size() const { return modes() * per_mode(); }
   Eigen::Index pivot(Eigen::Index k) const { return pivot_[static_cast<std::size_t>(k)]; }
+  bool out_of_band(Eigen::Index k) const { return out_of_band_[static_cast<std::size_t>(k)]; }
 
   // Where the real part of a component stands; the imaginary part follows it.
   Eigen::Index pole_at(Eigen::Index k) const { return k * per_mode(); }
@@ -48,7 +56,7 @@ class Parametrization {
     for (Eigen::Index k = 0; k < this->modes(); ++k) {
       const Mode& mode = modes[static_cast<std::size_t>(k)];
       const Complex lambda = mode.pole();
-      x[pole_at(k)] = std::log(-lambda.real());
+      x[pole_at(k)] = std::log(-lambda.real() / lambda.imag());
       x[pole_at(k) + 1] = std::log(lambda.imag());
       const Complex scale = mode.psi_r[pivot(k)];
       for (Eigen::Index i = 0; i < dofs_; ++i) {
@@ -63,7 +71,7 @@ class Parametrization {
     std::vector<Mode> modes(pivot_.size());
     for (Eigen::Index k = 0; k < this->modes(); ++k) {
       Mode& mode = modes[static_cast<std::size_t>(k)];
-      set_pole(mode, {-std::exp(x[pole_at(k)]), std::exp(x[pole_at(k) + 1])});
+      set_pole(mode, pole(x, k));
       mode.psi_r = Eigen::VectorXcd::Ones(dofs_);
       mode.psi_l.resize(dofs_);
       for (Eigen::Index i = 0; i < dofs_; ++i) {
@@ -75,7 +83,7 @@ class Parametrization {
   }
 
   Complex pole(const double* x, Eigen::Index k) const {
-    return {-std::exp(x[pole_at(k)]), std::exp(x[pole_at(k) + 1])};
+    return std::exp(x[pole_at(k) + 1]) * Complex(-std::exp(x[pole_at(k)]), 1);
   }
 
  private:
@@ -86,6 +94,7 @@ class Parametrization {
 
   Eigen::Index dofs_;
   std::vector<Eigen::Index> pivot_;
+  std::vector<bool> out_of_band_;  // at the start
 };
 
 // A complex parameter of one curve: moving it by z changes the curve by z t g + conj(z t) g_conj.
@@ -128,6 +137,7 @@ class Likelihood {
       if (with_matrix) add_curve(values, curve, modes, residue, error, result);
     }
     if (with_matrix) to_logarithms(poles, result);
+    add_priors(x, with_matrix, result);
     return result;
   }
 
@@ -186,15 +196,35 @@ class Likelihood {
     if (a.at != b.at) matrix.block<2, 2>(b.at, a.at) += block.transpose();
   }
 
-  // d Re lambda / d log(-Re lambda) = Re lambda; likewise for the imaginary part.
+  // d lambda / d log(-Re / Im) = Re lambda, d lambda / d log Im = lambda.
   void to_logarithms(const Eigen::VectorXcd& poles, NormalEquations& result) const {
     for (Eigen::Index k = 0; k < poles.size(); ++k) {
-      for (const auto& [at, factor] : {std::pair{parameters_.pole_at(k), poles[k].real()},
-                                       std::pair{parameters_.pole_at(k) + 1, poles[k].imag()}}) {
-        result.gradient[at] *= factor;
-        result.matrix.row(at) *= factor;
-        result.matrix.col(at) *= factor;
-      }
+      const Eigen::Index at = parameters_.pole_at(k);
+      const Eigen::Matrix2d chain =
+          (Eigen::Matrix2d() << poles[k].real(), poles[k].real(), 0, poles[k].imag()).finished();
+      result.gradient.segment<2>(at) = (chain.transpose() * result.gradient.segment<2>(at)).eval();
+      result.matrix.middleRows<2>(at) = (chain.transpose() * result.matrix.middleRows<2>(at)).eval();
+      result.matrix.middleCols<2>(at) = (result.matrix.middleCols<2>(at) * chain).eval();
+    }
+  }
+
+  // Outside the band the data may not tell damping and distance: then a common damping and a place near the band
+  // hold, so that the residual mode cannot chatter by itself. Where the data tell, they outweigh this.
+  void add_priors(const double* x, bool with_matrix, NormalEquations& result) const {
+    const double lo = data_.s[0].imag(), hi = data_.s[data_.lines() - 1].imag();
+    const auto add = [&](Eigen::Index at, double expected, double deviation) {
+      const double off = (x[at] - expected) / deviation;
+      result.chi_square += off * off / 2;
+      if (!with_matrix) return;
+      result.gradient[at] += off / deviation / 2;
+      result.matrix(at, at) += 1 / (2 * deviation * deviation);
+    };
+    for (Eigen::Index k = 0; k < parameters_.modes(); ++k) {
+      if (!parameters_.out_of_band(k)) continue;
+      const Eigen::Index at = parameters_.pole_at(k);
+      add(at, std::log(kResidualDamping), kResidualDampingDeviation);
+      const bool above = x[at + 1] > std::log(hi);
+      add(at + 1, above ? std::log(1.5 * hi) : std::log(std::max(lo / 1.5, 1e-3 * hi)), kResidualPlaceDeviation);
     }
   }
 
@@ -258,10 +288,10 @@ void add_statistics(const Parametrization& parameters, const Eigen::VectorXd& x,
     // The weights are 1 / E|error|^2 of the complex value, so each part has half of that variance.
     const Complex lambda = parameters.pole(x.data(), k);
     const Eigen::Matrix2d pole = covariance.block<2, 2>(parameters.pole_at(k), parameters.pole_at(k)) / 2;
-    const double zeta = -lambda.real() / std::abs(lambda), beta = lambda.imag() / std::abs(lambda);
-    // omega_n^2 = a^2 + b^2: d log omega_n = zeta^2 d log a + (1 - zeta^2) d log b; zeta = a / omega_n.
-    const Eigen::Vector2d of_frequency(zeta * zeta, beta * beta);
-    const Eigen::Vector2d of_damping(beta * beta, -beta * beta);
+    const double zeta = -lambda.real() / std::abs(lambda);
+    // With t = -Re / Im: log omega_n = log Im + log(1 + t^2) / 2 and log zeta = log t - log(1 + t^2) / 2.
+    const Eigen::Vector2d of_frequency(zeta * zeta, 1);
+    const Eigen::Vector2d of_damping(1 - zeta * zeta, 0);
     result.modes[static_cast<std::size_t>(k)].deviation = {
         hz_from_rad_per_s(std::abs(lambda)) * std::sqrt(of_frequency.dot(pole * of_frequency)),
         zeta * std::sqrt(of_damping.dot(pole * of_damping))};
@@ -286,21 +316,22 @@ RefinedModes refine_modes(const FitData& data, const std::vector<Mode>& start, i
     result.converged = true;
     return result;
   }
-  const Parametrization parameters(start, data.dofs);
+  const Parametrization parameters(start, data);
   const Likelihood likelihood(data, parameters);
   Eigen::VectorXd x = parameters.pack(start);
 
+  FLAGS_minloglevel = google::GLOG_FATAL;  // a library that prints is a bug
   ceres::Problem problem;
   problem.AddResidualBlock(new CompressedCost(likelihood, parameters.size()), nullptr, x.data());
   const double highest = data.s.cwiseAbs().maxCoeff();
   for (Eigen::Index k = 0; k < parameters.modes(); ++k) {
-    // Outside the band the data do not tell damping or distance: keep both from running away.
-    const int at = static_cast<int>(parameters.pole_at(k));
-    for (const int i : {at, at + 1}) {
-      x[i] = std::clamp(x[i], std::log(kLeastRate * highest), std::log(kLargestRate * highest));
-      problem.SetParameterLowerBound(x.data(), i, std::log(kLeastRate * highest));
-      problem.SetParameterUpperBound(x.data(), i, std::log(kLargestRate * highest));
-    }
+    const auto bound = [&](Eigen::Index at, double least, double most) {
+      x[at] = std::clamp(x[at], std::log(least), std::log(most));
+      problem.SetParameterLowerBound(x.data(), static_cast<int>(at), std::log(least));
+      problem.SetParameterUpperBound(x.data(), static_cast<int>(at), std::log(most));
+    };
+    bound(parameters.pole_at(k), kLeastRatio, kLargestRatio);
+    bound(parameters.pole_at(k) + 1, kLeastRate * highest, kLargestRate * highest);
   }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;

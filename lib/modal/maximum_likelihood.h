@@ -17,8 +17,8 @@ struct RefinedModes {
 };
 
 /// Minimises the weighted squared error of all curves at once over poles and vectors, from the given modes. Each
-/// mode is described without redundancy: the logarithms of decay rate and frequency, psi_r with its largest
-/// component fixed, psi_l. At most `iterations` steps of Levenberg-Marquardt with analytic derivatives.
+/// mode is described without redundancy: the logarithms of damping and frequency, psi_r with its largest component
+/// fixed, psi_l. Modes that start outside the band are held near it and damped by a weak prior, which chi_square holds. At most `iterations` steps of Levenberg-Marquardt with analytic derivatives.
 RefinedModes refine_modes(const FitData& data, const std::vector<Mode>& start, int iterations);
 
 /// The model on the data's lines for one curve.

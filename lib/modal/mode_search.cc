@@ -23,6 +23,7 @@ constexpr int kTrialSteps = 12;       // of a refinement that only has to tell w
 constexpr int kStartSteps = 24;      // of the first refinement, of many candidates
 constexpr int kFinalSteps = 60;
 constexpr int kRescues = 3;
+constexpr double kOutsideMargin = 2;  // how far outside the band a mode is looked for
 constexpr double kBeyondDoubt = 100;  // times the price
 // Weights never claim less noise than these shares of the value, and than a part of that of the curve's RMS. Computed
 // receptances have no noise at all, and rounding must not decide the number of modes; the coarse floor finds it, the
@@ -104,9 +105,14 @@ void ModeSearch::rescue() {
 // ---- weights ----
 
 void ModeSearch::set_weights() {
+  double largest_rms = 0;
+  for (const Curve& curve : data_.curves) largest_rms = std::max(largest_rms, curve.h.norm());
+  largest_rms /= std::sqrt(static_cast<double>(data_.lines()));
   for (std::size_t e = 0; e < data_.curves.size(); ++e) {
     Curve& curve = data_.curves[e];
-    const double rms = std::sqrt(curve.h.squaredNorm() / static_cast<double>(data_.lines()));
+    // A curve of exact zeros is as sure as the largest one.
+    const double own_rms = std::sqrt(curve.h.squaredNorm() / static_cast<double>(data_.lines()));
+    const double rms = own_rms > 0 ? own_rms : largest_rms;
     const double of_rms = limited_by_model_ ? kModelErrorFloor : kRmsShare * floor_;
     curve.weight =
         (variance_[e].array() + floor_ * floor_ * curve.h.array().abs2() + std::pow(of_rms * rms, 2)).inverse();
@@ -157,11 +163,13 @@ void ModeSearch::build_up() {
 
 // |model - h| / |h|, root mean square over the curves.
 double ModeSearch::relative_error(const std::vector<Mode>& modes) const {
-  double sum = 0;
+  double sum = 0, curves = 0;
   for (const Curve& curve : data_.curves) {
+    if (curve.h.isZero(0)) continue;
     sum += (curve_of(modes, curve, data_.s) - curve.h).squaredNorm() / curve.h.squaredNorm();
+    ++curves;
   }
-  return std::sqrt(sum / static_cast<double>(data_.curves.size()));
+  return std::sqrt(sum / curves);
 }
 
 // ---- the price of a mode ----
@@ -215,17 +223,11 @@ void ModeSearch::find_modes() {
   current_ = refine_modes(data_, modes, kStartSteps);
 }
 
-// The mode whose residue is nearest to the curves' residues; a missing curve counts as its mirror image, or as zero.
+// The mode whose residue is nearest to the curves' residues; a missing curve counts as zero.
 Mode ModeSearch::rank_one(Complex pole, const Eigen::RowVectorXcd& residue) const {
   Eigen::MatrixXcd matrix = Eigen::MatrixXcd::Zero(data_.dofs, data_.dofs);
   for (std::size_t e = 0; e < data_.curves.size(); ++e) {
-    const Curve& curve = data_.curves[e];
-    const Complex value = residue[static_cast<Eigen::Index>(e)];
-    matrix(curve.response, curve.reference) = value;
-    const bool mirror_missing = std::none_of(data_.curves.begin(), data_.curves.end(), [&](const Curve& other) {
-      return other.response == curve.reference && other.reference == curve.response;
-    });
-    if (mirror_missing) matrix(curve.reference, curve.response) = value;
+    matrix(data_.curves[e].response, data_.curves[e].reference) = residue[static_cast<Eigen::Index>(e)];
   }
   const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(matrix, Eigen::ComputeThinU | Eigen::ComputeThinV);
   Mode mode;
@@ -247,7 +249,7 @@ void ModeSearch::select() {
 
 // Takes modes away, the least important first, as long as that costs less than they must be worth.
 void ModeSearch::remove_modes() {
-  const std::size_t least = wanted_modes_ ? static_cast<std::size_t>(*wanted_modes_) : 1;
+  const std::size_t least = wanted_modes_ ? static_cast<std::size_t>(*wanted_modes_) : 0;
   while (current_.modes.size() > least) {
     std::vector<std::size_t> order(current_.modes.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -307,7 +309,9 @@ Mode ModeSearch::best_addition() const {
   double best_gain = -1;
   Mode best;
   for (const double zeta : {0.004, 0.02, 0.08, 0.3}) {
-    for (double omega = lo; omega <= hi; omega += std::max(zeta * omega, spacing / 2)) {
+    // Also a little outside the band, for a damping that residual modes have.
+    const double margin = zeta == 0.08 ? kOutsideMargin : 1;
+    for (double omega = lo / margin; omega <= hi * margin; omega += std::max(zeta * omega, spacing / 2)) {
       const Complex pole = omega * Complex(-zeta, std::sqrt(1 - zeta * zeta));
       const PoleValues values(data_.s, Eigen::VectorXcd::Constant(1, pole));
       Eigen::RowVectorXcd residue(static_cast<Eigen::Index>(data_.curves.size()));

@@ -107,6 +107,9 @@ Eigen::VectorXcd starting_poles(const FitData& data, Eigen::Index pairs) {
     const auto line = std::lower_bound(turned.begin(), turned.end(), share * turned[data.lines() - 1]);
     frequency.push_back(data.s[std::min<Eigen::Index>(line - turned.begin(), data.lines() - 1)].imag());
   }
+  // And one on either side of the band.
+  frequency.push_back(lo / 2);
+  frequency.push_back(hi * 1.5);
   std::sort(frequency.begin(), frequency.end());
   Eigen::VectorXcd poles(static_cast<Eigen::Index>(frequency.size()));
   double last = 0;

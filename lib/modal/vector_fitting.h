@@ -10,7 +10,7 @@
 namespace stablecut {
 
 /// Start poles over the band of the data: a third spaced by logarithm, a third evenly, and a third where the curves
-/// turn most. `pairs` at least 3. Positive imaginary parts, rad/s.
+/// turn most, and one more on either side of the band. `pairs` at least 3. Positive imaginary parts, rad/s.
 Eigen::VectorXcd starting_poles(const FitData& data, Eigen::Index pairs);
 
 /// One relocation: poles of the data's common denominator, given poles near them. Unstable ones are mirrored, real
