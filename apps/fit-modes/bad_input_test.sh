@@ -47,6 +47,6 @@ refused 64 '^fit-modes: --seed: expected with --synthesize' fit-modes --seed 3 g
 refused 64 '^fit-modes: --fitted: expected without --synthesize' fit-modes --synthesize 1:2:2 --fitted x "$data/thesis-table-6-2.json"
 refused 64 '^fit-modes: --synthesize: 1:2: expected FROM:TO:COUNT' fit-modes --synthesize 1:2
 refused 64 '^fit-modes: --quantity: mobility: expected receptance' fit-modes --quantity mobility good.json
-refused 64 '^fit-modes: same.json: expected another output' fit-modes good.json --modes 3 -o same.json --fitted same.json
-refused 74 '^fit-modes: /dev/full: cannot be written' fit-modes good.json --modes 3 -o kept.json --fitted /dev/full
+refused 64 '^fit-modes: same.json: expected another output' fit-modes --quiet good.json --modes 3 -o same.json --fitted same.json
+refused 74 '^fit-modes: /dev/full: cannot be written' fit-modes --quiet good.json --modes 3 -o kept.json --fitted /dev/full
 check "one failed output leaves none" test ! -e kept.json -a -z "$(find . -name '.stablecut-*')"

@@ -91,6 +91,7 @@ class FitModes : public cli::Tool {
     write_document(main_output(), std::move(document));
     if (!fitted_path_.empty()) {
       FrequencyResponse fitted = synthesize(result.model, measured.frequency_hz);
+      std::erase_if(fitted.entries, [&](const auto& entry) { return measured.find(entry.response, entry.reference) == nullptr; });
       write_document(fitted_path_, frf_to_json(fitted));
     }
   }
@@ -122,6 +123,12 @@ class FitModes : public cli::Tool {
       if (!quantity_.empty() && frf.quantity != quantity_from_name(quantity_)) {
         throw cli::Failure(cli::ExitStatus::kUsage, "--quantity: " + quantity_ + ": expected " + quantity_name(frf.quantity) +
                                                         ", as the document says");
+      }
+    }
+    for (std::size_t e = 0; e < frf.entries.size(); ++e) {
+      if (frf.find(frf.entries[e].response, frf.entries[e].reference) != &frf.entries[e]) {
+        throw DataError(input.source.name, "/h/" + std::to_string(e), frf.entries[e].response + frf.entries[e].reference,
+                        "measured at another position too: expected each pair of directions once");
       }
     }
     // Nothing is learnt at 0 Hz, and inertance and mobility cannot be converted there.

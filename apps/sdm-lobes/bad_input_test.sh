@@ -72,14 +72,20 @@ refused 64 '^sdm-lobes: --kr: missing' sdm-lobes "$table" --teeth 2 --kt 600
 refused 64 '^sdm-lobes: --cut: expected either' sdm-lobes "$table" --cut "$cut" --teeth 2
 refused 64 '^sdm-lobes: -: expected standard input for one input only' sdm-lobes --cut - <"$cut"
 refused 64 '^sdm-lobes: --speed: 5000:20000: expected FROM:TO:COUNT' sdm-lobes "$table" --cut "$cut" --speed 5000:20000
-refused 64 '^sdm-lobes: --depth: expected depths not below 0' sdm-lobes "$table" --cut "$cut" --depth -1:2:3
-refused 64 '^sdm-lobes: --speed: expected speeds above 0' sdm-lobes "$table" --cut "$cut" --speed 0:2:3
+refused 64 '^sdm-lobes: --depth: -1.0: expected depths not below 0' sdm-lobes "$table" --cut "$cut" --depth -1:2:3
+refused 64 '^sdm-lobes: --speed: 0.0: expected speeds above 0' sdm-lobes "$table" --cut "$cut" --speed 0:2:3
 refused 64 '^sdm-lobes: --teeth: 0: expected' sdm-lobes "$table" --teeth 0 --kt 1 --kr 1 --milling up --immersion 1
 refused 64 '^sdm-lobes: --kt: nan: expected' sdm-lobes "$table" --teeth 1 --kt nan --kr 1 --milling up --immersion 1
 refused 64 '^sdm-lobes: --modes: 16: expected at most 15' sdm-lobes "$table" --cut "$cut" --modes 16
 refused 64 '^sdm-lobes: --modes: 3-1: expected' sdm-lobes "$table" --cut "$cut" --modes 3-1
 refused 64 '^sdm-lobes: --intervals: expected with --method sdm' sdm-lobes "$table" --cut "$cut" --intervals 20
 refused 64 '^sdm-lobes: .*--method' sdm-lobes "$table" --cut "$cut" --method magic
+
+refused 64 "^sdm-lobes: --points: empty: expected a value" sdm-lobes "$table" --cut "$cut" --points ''
+refused 64 '^sdm-lobes: options: /teeth: 100000: expected' sdm-lobes "$table" --teeth 100000 --kt 1 --kr 1 --milling up --immersion 1
+refused 1 'the fastest mode turns too often' sdm-lobes "$table" --cut "$cut" --speed 1e-3:1e-3:1
+printf '[%.0s' {1..1000} >deep.json
+refused 65 '^sdm-lobes: deep.json: .*nested too deeply' sdm-lobes --cut "$cut" deep.json
 
 # Outputs.
 point=(sdm-lobes "$table" --cut "$cut" --speed 9000:9000:1 --depth 1:1:1)

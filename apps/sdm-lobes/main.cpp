@@ -70,19 +70,22 @@ class SdmLobes : public cli::Tool {
       throw cli::Failure(cli::ExitStatus::kUsage, "--intervals: expected with --method sdm only");
     }
     const Json cut_json = cut_document();
-    const CutDocument cut = cut_from_json(cut_json, cut_source_);
+    const CutDocument cut = read_cut(cut_json);
     const cli::Input table = read_main_input(true);
     const ModalModel whole_model = modal_table_from_json(table.document, table.source);
     const ModalModel model = selected_modes(whole_model, table.source);
     const TipStructure structure = structure_of(model, table.source);
+    for (const std::string& dof : model.dofs) {
+      if (dof != "x" && dof != "y") warn(table.source.name + ": /dofs: \"" + dof + "\": left out: only x and y chatter here");
+    }
 
     LobesDocument lobes;
     lobes.scheme = {method_ == "sdm" ? StabilityMethod::kSemiDiscretization : StabilityMethod::kSpectral,
                     intervals_.value_or(StabilityScheme{}.intervals)};
     const Range speed = speed_.value_or(cut.speed_rpm.value_or(kDefaultSpeed));
     const Range depth = depth_.value_or(cut.depth_mm.value_or(kDefaultDepth));
-    if (!(speed.from > 0)) throw cli::Failure(cli::ExitStatus::kUsage, "--speed: expected speeds above 0 rpm");
-    if (depth.from < 0) throw cli::Failure(cli::ExitStatus::kUsage, "--depth: expected depths not below 0 mm");
+    if (!(speed.from > 0)) throw cli::Failure(cli::ExitStatus::kUsage, "--speed: " + Json(speed.from).dump() + ": expected speeds above 0 rpm");
+    if (depth.from < 0) throw cli::Failure(cli::ExitStatus::kUsage, "--depth: " + Json(depth.from).dump() + ": expected depths not below 0 mm");
     lobes.speed_rpm = speed.values();
     lobes.depth_mm = depth.values();
     lobes.cut = cut_as_used(cut_json, speed, depth);
@@ -134,6 +137,16 @@ class SdmLobes : public cli::Tool {
     cut_source_.name = "options";
     return {{"format", "stablecut/cut/1"}, {"teeth", *teeth_},     {"kt_n_per_mm2", *kt_},
             {"kr_n_per_mm2", *kr_},        {"milling", milling_}, {"radial_immersion", *immersion_}};
+  }
+
+  // What is wrong with a cut by options is wrong usage.
+  CutDocument read_cut(const Json& document) const {
+    if (!cut_path_.empty()) return cut_from_json(document, cut_source_);
+    try {
+      return cut_from_json(document, cut_source_);
+    } catch (const DataError& error) {
+      throw cli::Failure(cli::ExitStatus::kUsage, error.what());
+    }
   }
 
   static Json cut_as_used(Json cut, const Range& speed, const Range& depth) {

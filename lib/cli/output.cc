@@ -8,10 +8,11 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
-#include <climits>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 
 #include "cli/exit_status.h"
 
@@ -58,13 +59,15 @@ void write_all(int file, const std::string& text, const std::string& name) {
   }
 }
 
-// Follows symbolic links, so that a rename replaces the file and not the link.
+// Follows symbolic links, also one to a file that is not there yet, so that a rename replaces the file and not the link.
 std::string resolved(const std::string& path) {
-  char* real = realpath(path.c_str(), nullptr);
-  if (real == nullptr) return path;
-  std::string result(real);
-  std::free(real);
-  return result;
+  std::filesystem::path target = path;
+  std::error_code error;
+  for (int links = 0; links < 40 && std::filesystem::is_symlink(target, error); ++links) {
+    const std::filesystem::path next = std::filesystem::read_symlink(target, error);
+    target = next.is_absolute() ? next : target.parent_path() / next;
+  }
+  return target.string();
 }
 
 }  // namespace
@@ -143,11 +146,15 @@ void OutputSet::commit() {
 
 void install_signal_handlers() {
   std::signal(SIGPIPE, SIG_IGN);
-  struct sigaction action {};
-  action.sa_handler = remove_unfinished_and_exit;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-  sigaction(SIGHUP, &action, nullptr);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is a failed write
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction action {};
+    // What the caller chose to ignore (nohup, a background job) stays ignored.
+    if (sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) continue;
+    action = {};
+    action.sa_handler = remove_unfinished_and_exit;
+    sigaction(signal, &action, nullptr);
+  }
 }
 
 }  // namespace stablecut::cli

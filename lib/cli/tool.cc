@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <thread>
 
@@ -103,10 +104,11 @@ Input Tool::read_input(const std::string& path, bool must_be_json) {
 }
 
 void Tool::write_document(const std::string& path, Json document) {
-  if (std::find(output_paths_.begin(), output_paths_.end(), path) != output_paths_.end()) {
+  const std::string whole = path == "-" ? path : std::filesystem::weakly_canonical(path).string();
+  if (std::find(output_paths_.begin(), output_paths_.end(), whole) != output_paths_.end()) {
     throw Failure(ExitStatus::kUsage, path + ": expected another output for each document");
   }
-  output_paths_.push_back(path);
+  output_paths_.push_back(whole);
   if (!without_provenance_) {
     document["provenance"] = provenance(name_, STABLECUT_VERSION, result_arguments(), inputs_);
   }
@@ -161,6 +163,12 @@ int Tool::parse(int argc, char** argv) {
     return 1;
   } catch (const CLI::ParseError& error) {
     throw Failure(ExitStatus::kUsage, std::string(error.what()) + " (see " + name_ + " --help)");
+  }
+  for (const CLI::Option* option : app_.get_options()) {
+    const auto& texts = option->results();
+    if (option != schema_option_ && std::find(texts.begin(), texts.end(), "") != texts.end()) {
+      throw Failure(ExitStatus::kUsage, option->get_name() + ": empty: expected a value");
+    }
   }
   if (threads) threads_ = *threads;
   if (schema_option_->count() > 0) {

@@ -12,6 +12,8 @@
 namespace stablecut {
 namespace {
 
+constexpr std::size_t kDeepest = 200;  // levels of lists and objects
+
 // Builds the value while it knows where it is, which the library's own builder does not tell.
 class Builder : public nlohmann::json_sax<Json> {
  public:
@@ -100,6 +102,10 @@ class Builder : public nlohmann::json_sax<Json> {
     return true;
   }
   bool open(Json&& value) {
+    if (levels_.size() >= kDeepest) {
+      fail(levels_.front().key.empty() ? "/" : "/" + shown(levels_.front().key), "",
+           "nested too deeply: expected at most " + std::to_string(kDeepest) + " levels");
+    }
     levels_.push_back({place(std::move(value)), {}, {}});
     return true;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "document/frf.h"
 #include "document/node.h"
 
 namespace stablecut {
@@ -31,8 +32,10 @@ ModalModel modal_table_from_json(const Json& document, const Source& source) {
   const Node root = document_root(document, source, "modal-table");
   root.check_names({"format", "dofs", "modes", "fit", "provenance"});
   ModalModel model;
+  std::vector<double> sign;  // of "-x"
   for (const Node& dof : root.at("dofs").items(1)) {
-    const std::string name = dof.text();
+    std::string name = dof.text();
+    sign.push_back(take_sign(name));
     if (name.empty() || model.dof(name) >= 0) dof.fail("expected direction names, each once");
     model.dofs.push_back(name);
   }
@@ -43,6 +46,10 @@ ModalModel modal_table_from_json(const Json& document, const Source& source) {
     mode.damping_ratio = item.at("damping_ratio").number(kDampingRatio);
     mode.psi_r = vector_from(item.at("psi_r"), model.dofs.size());
     mode.psi_l = vector_from(item.at("psi_l"), model.dofs.size());
+    for (std::size_t i = 0; i < sign.size(); ++i) {
+      mode.psi_r[static_cast<Eigen::Index>(i)] *= sign[i];
+      mode.psi_l[static_cast<Eigen::Index>(i)] *= sign[i];
+    }
     if (const auto out = item.find("out_of_band")) mode.out_of_band = out->boolean();
     if (const auto std_node = item.find("std")) {
       std_node->check_names({"frequency_hz", "damping_ratio", "psi_r", "psi_l"});

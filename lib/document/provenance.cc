@@ -2,6 +2,7 @@
 
 #include <openssl/evp.h>
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 
@@ -22,10 +23,34 @@ std::string sha256(const std::string& bytes) {
   return text;
 }
 
+namespace {
+
+// Whatever else calls itself so is not carried on.
+bool is_provenance(const Json& value) {
+  const auto has = [](const Json& object, const char* name, bool (Json::*is)() const noexcept) {
+    return object.contains(name) && (object[name].*is)();
+  };
+  if (!value.is_object() || !has(value, "tool", &Json::is_string) || !has(value, "version", &Json::is_string) ||
+      !has(value, "arguments", &Json::is_array) || !has(value, "inputs", &Json::is_array)) {
+    return false;
+  }
+  const auto is_text = [](const Json& item) { return item.is_string(); };
+  const auto is_input = [&](const Json& item) {
+    return item.is_object() && has(item, "name", &Json::is_string) && has(item, "sha256", &Json::is_string) &&
+           (!item.contains("from") || is_provenance(item["from"]));
+  };
+  return std::all_of(value["arguments"].begin(), value["arguments"].end(), is_text) &&
+         std::all_of(value["inputs"].begin(), value["inputs"].end(), is_input);
+}
+
+}  // namespace
+
 ProvenanceInput provenance_input(const Source& source, const Json& document) {
   ProvenanceInput input{source.name, sha256(source.text), nullptr};
   if (document.is_object()) {
-    if (const auto found = document.find("provenance"); found != document.end()) input.from = *found;
+    if (const auto found = document.find("provenance"); found != document.end() && is_provenance(*found)) {
+      input.from = *found;
+    }
   }
   return input;
 }

@@ -14,9 +14,13 @@ constexpr const char* kBlanks = " \t\r\v\f";
 std::string_view trimmed(std::string_view text) {
   const auto from = text.find_first_not_of(kBlanks);
   if (from == std::string_view::npos) return {};
-  text = text.substr(from, text.find_last_not_of(kBlanks) - from + 1);
-  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
-  return text;
+  return text.substr(from, text.find_last_not_of(kBlanks) - from + 1);
+}
+
+std::string_view unquoted(std::string_view field) {
+  field = trimmed(field);
+  if (field.size() >= 2 && field.front() == '"' && field.back() == '"') field = field.substr(1, field.size() - 2);
+  return field;
 }
 
 std::vector<std::string> split(std::string_view line, char separator) {
@@ -24,7 +28,7 @@ std::vector<std::string> split(std::string_view line, char separator) {
   if (separator == ' ') {
     while (!(line = trimmed(line)).empty()) {
       const auto end = line.find_first_of(kBlanks);
-      fields.emplace_back(trimmed(line.substr(0, end)));
+      fields.emplace_back(unquoted(line.substr(0, end)));
       if (end == std::string_view::npos) break;
       line.remove_prefix(end);
     }
@@ -32,7 +36,7 @@ std::vector<std::string> split(std::string_view line, char separator) {
   }
   for (;;) {
     const auto end = line.find(separator);
-    fields.emplace_back(trimmed(line.substr(0, end)));
+    fields.emplace_back(unquoted(line.substr(0, end)));
     if (end == std::string_view::npos) return fields;
     line.remove_prefix(end + 1);
   }

@@ -8,7 +8,7 @@
 using namespace stablecut;
 
 TEST_CASE("separators, comments, CRLF, byte-order mark, quotes, decimal commas") {
-  for (const char* text : {"1.5,2,3\n", "\xEF\xBB\xBF\"1.5\";2;3\r\n", "# note\n\n1,5;2;3", "1.5\t2\t3", "  1.5   2 3 "}) {
+  for (const char* text : {"1.5,2,3\n", "\"1.5\",\"2\",\"3\"\n", "\xEF\xBB\xBF\"1.5\";2;3\r\n", "# note\n\n1,5;2;3", "1.5\t2\t3", "  1.5   2 3 "}) {
     INFO(text);
     const auto rows = table_rows({"f", text});
     REQUIRE(rows.size() == 1);

@@ -1,6 +1,7 @@
 #include "milling/floquet.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "base/units.h"
@@ -13,6 +14,8 @@ using Complex = std::complex<double>;
 
 // A real multiplier's imaginary part is zero but for rounding.
 constexpr double kRealMultiplier = 1e-7;
+
+constexpr double kMostHarmonics = 20000;
 
 // By inverse iteration from a start without preference, next to the eigenvalue.
 Eigen::VectorXcd eigenvector(const Eigen::MatrixXd& matrix, Complex value) {
@@ -54,7 +57,7 @@ CriticalMultiplier critical_multiplier(const PeriodMap& map, double depth_m) {
   }
   const Complex exponent = std::log(mu) / map.period_s();
   const double highest = structure.lambda.cwiseAbs().maxCoeff();
-  const auto harmonics = static_cast<int>(std::ceil(1.2 * highest * map.period_s() / kTwoPi)) + 1;
+  const auto harmonics = static_cast<int>(std::min(std::ceil(1.2 * highest * map.period_s() / kTwoPi), kMostHarmonics)) + 1;
   double best = -1;
   for (int k = -harmonics; k <= harmonics; ++k) {
     const Complex s = exponent + Complex(0, kTwoPi * k / map.period_s());

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/error.h"
 #include "base/parallel.h"
 #include "base/units.h"
 #include "milling/semi_discretization.h"
@@ -17,9 +18,14 @@ namespace {
 // and nobody needs its last digits.
 constexpr double kConverged = 1e-8;
 constexpr int kMostPoints = 240;   // per arc; then the error is what it is
+constexpr double kNearLimit = 2;       // a radius from which the limit is near
+constexpr double kMostHalfTurn = 1e4;  // rad in half an arc; more cannot be resolved by any number of points
 constexpr int kStagnation = 3;     // refinements without improvement, once below
 constexpr double kNearRounding = 1e-5;  // this: rounding is what is left
-constexpr int kRungs = 64;            // least number of steps on the way to the largest depth
+// Steps on the way to the largest depth: a share of the depth reached, between these parts of the largest.
+constexpr double kRungShare = 0.06;
+constexpr double kLeastRung = 1.0 / 512;
+constexpr double kLargestRung = 1.0 / 64;
 constexpr double kDepthTolerance = 1e-9;
 
 // Enough points to be near convergence: a polynomial follows the fastest mode's turn over half an arc.
@@ -28,7 +34,11 @@ int first_guess(const TipStructure& structure, const Cutter& cutter, double revo
   for (const EngagedArc& arc : engaged_arcs(cutter)) longest = std::max(longest, arc.to_rad - arc.from_rad);
   const double half_turn =
       structure.lambda.imag().cwiseAbs().maxCoeff() * longest / (2 * kTwoPi * revolutions_per_s);
-  return std::min(6 + static_cast<int>(1.1 * half_turn), kMostPoints);
+  if (half_turn > kMostHalfTurn) {
+    throw NoAnswer("at " + std::to_string(60 * revolutions_per_s) +
+                   " rpm the fastest mode turns too often in one cut to be followed: leave it out with --modes, or raise the speed");
+  }
+  return static_cast<int>(std::min(6 + 1.1 * half_turn, static_cast<double>(kMostPoints)));
 }
 
 PreparedPeriod converged_spectral(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
@@ -36,12 +46,16 @@ PreparedPeriod converged_spectral(const TipStructure& structure, const Cutter& c
   const auto build = [&](int points) {
     return std::make_unique<SpectralMap>(structure, cutter, revolutions_per_s, points);
   };
-  const double depths[] = {largest_depth_m, largest_depth_m / 2};
-  const auto radii = [&](const PeriodMap& map) {
-    return std::array{spectral_radius(map, depths[0]), spectral_radius(map, depths[1])};
-  };
   int points = first_guess(structure, cutter, revolutions_per_s);
   auto map = build(points);
+  // At the top, half way, and where the limit is near: far above it a radius may be astronomical.
+  std::array<double, 3> depths = {largest_depth_m, largest_depth_m / 2, largest_depth_m / 4};
+  for (int i = 0; i < 12 && spectral_radius(*map, depths[2]) > kNearLimit; ++i) depths[2] /= 2;
+  const auto radii = [&](const PeriodMap& at) {
+    std::array<double, 3> radius{};
+    std::transform(depths.begin(), depths.end(), radius.begin(), [&](double d) { return spectral_radius(at, d); });
+    return radius;
+  };
   auto radius = radii(*map);
   PreparedPeriod best;
   best.error = std::numeric_limits<double>::infinity();
@@ -143,7 +157,9 @@ std::optional<StabilityLimit> lowest_limit(const PeriodMap& map, double largest_
   std::size_t known = 0;
   while (ladder.back().depth_m < largest_depth_m) {
     while (known < known_depths_m.size() && known_depths_m[known] <= ladder.back().depth_m) ++known;
-    double depth = std::min(ladder.back().depth_m + largest_depth_m / kRungs, largest_depth_m);
+    const double step = std::clamp(kRungShare * ladder.back().depth_m, kLeastRung * largest_depth_m,
+                                   kLargestRung * largest_depth_m);
+    double depth = std::min(ladder.back().depth_m + step, largest_depth_m);
     double excess = 0;
     if (known < known_depths_m.size() && known_depths_m[known] <= depth * (1 + 1e-12)) {
       depth = known_depths_m[known];

@@ -6,6 +6,8 @@
 #include <complex>
 #include <limits>
 
+#include "base/error.h"
+
 namespace stablecut {
 namespace {
 
@@ -180,6 +182,7 @@ class HessenbergQr {
 }  // namespace
 
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) {
+  if (!matrix.allFinite()) throw InvalidArgument("the period's map is not finite: expected modes and depths of a usual size");
   if (matrix.rows() == 1) return matrix.cast<std::complex<double>>();
   const RowMatrix hessenberg = Eigen::HessenbergDecomposition<Eigen::MatrixXd>(matrix).matrixH();
   Eigen::VectorXcd values;
