@@ -16,6 +16,7 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr Eigen::Index kLeastLines = 8;
+constexpr double kNoFit = 0.5;  // relative error from which on modes explain nothing
 
 FitData group_data(const FrequencyResponse& measured, const DirectionGroup& group, const std::vector<std::string>& dofs) {
   FitData data;
@@ -170,9 +171,13 @@ ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options)
   }
   const std::string missing = missing_entries(measured, fit.model.dofs);
   if (by_reciprocity) {
-    fit.warnings.push_back("missing entries " + missing + ": what they would tell is filled in by reciprocity");
+    fit.warnings.push_back("missing entries " + missing + ": what they would tell is set by reciprocity, or to zero");
   } else if (!missing.empty() && groups.size() > 1) {
     fit.warnings.push_back("missing entries " + missing + ": these directions are taken as uncoupled");
+  }
+  if (fit.limited_by_model && !options.modes && fit.relative_error > kNoFit) {
+    throw NoAnswer("the modes found leave " + std::to_string(std::lround(100 * fit.relative_error)) +
+                   " % of the curves unexplained: is the low end of the band unusable (--band)?");
   }
   if (fit.limited_by_model) {
     fit.warnings.push_back("the residual is larger than the noise and not made of modes: fitted by the strongest modes to " +

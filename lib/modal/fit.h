@@ -43,7 +43,7 @@ struct ModalFit {
 /// warning. Directions that only missing entries could connect are taken as uncoupled, with a warning.
 ///
 /// `measured` must be a receptance with at least 8 lines above 0 Hz. Throws InvalidArgument for data that cannot be
-/// fitted, NoAnswer when no mode stands out.
+/// fitted, NoAnswer when no mode stands out, or the modes leave half of the curves unexplained.
 ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options = {});
 
 }  // namespace stablecut
