@@ -23,7 +23,8 @@ class FitModes : public cli::Tool {
  public:
   FitModes()
       : Tool("fit-modes",
-             "Modes of the tool tip from measured frequency responses, nothing guessed by hand; with --synthesize the "
+             "Modes of the tool tip from measured frequency responses, nothing guessed by hand; with "
+             "--synthesize the "
              "frequency responses of a modal table.",
              "modal-table") {}
 
@@ -38,40 +39,48 @@ class FitModes : public cli::Tool {
            [this](const std::string& text) {
              if (text == "auto") return;
              modes_ = parse_integer(text);
-             if (!modes_ || *modes_ < 1) throw CLI::ValidationError("--modes", text + ": expected auto or a number of modes");
+             if (!modes_ || *modes_ < 1)
+               throw CLI::ValidationError("--modes", text + ": expected auto or a number of modes");
            },
            "Number of modes (default: auto)")
         ->type_name("auto|N");
-    not_in_provenance(app.add_option("--fitted", fitted_path_, "Also write the fitted model on the measured lines, an frf")
-                          ->type_name("FILE"));
+    not_in_provenance(
+        app.add_option("--fitted", fitted_path_, "Also write the fitted model on the measured lines, an frf")
+            ->type_name("FILE"));
     fit_options_ = {app.get_option("--from"), app.get_option("--quantity"), app.get_option("--band"),
                     app.get_option("--modes"), app.get_option("--fitted")};
 
-    cli::add_range_option(app, "--synthesize", synthesize_, "Write the frf of a modal table on these lines, Hz");
+    cli::add_range_option(app, "--synthesize", synthesize_,
+                          "Write the frf of a modal table on these lines, Hz");
     const auto any = [](double) { return true; };
     noise_options_ = {
-        cli::add_number_option(app, "--noise-db", noise_db_, "Synthesize: noise this far below |H| on each line, dB", "a number", any),
+        cli::add_number_option(app, "--noise-db", noise_db_,
+                               "Synthesize: noise this far below |H| on each line, dB", "a number", any),
         cli::add_number_option(app, "--noise-floor-db", noise_floor_db_,
                                "Synthesize: noise this far below each curve's RMS, dB", "a number", any),
         cli::add_integer_option(app, "--seed", seed_, 0, "Synthesize: seed of the noise (default: 1)"),
-        app.add_flag("--no-variance", no_variance_, "Synthesize: leave the noise's variance out of the document")};
+        app.add_flag("--no-variance", no_variance_,
+                     "Synthesize: leave the noise's variance out of the document")};
   }
 
   void run() override {
     for (const CLI::Option* option : synthesize_ ? fit_options_ : noise_options_) {
       if (option->count() == 0) continue;
       throw cli::Failure(cli::ExitStatus::kUsage,
-                         option->get_name() + (synthesize_ ? ": expected without --synthesize" : ": expected with --synthesize"));
+                         option->get_name() + (synthesize_ ? ": expected without --synthesize"
+                                                           : ": expected with --synthesize"));
     }
     synthesize_ ? synthesize_table() : fit();
   }
 
   void synthesize_table() {
-    if (synthesize_->from < 0) throw cli::Failure(cli::ExitStatus::kUsage, "--synthesize: expected frequencies not below 0 Hz");
+    if (synthesize_->from < 0)
+      throw cli::Failure(cli::ExitStatus::kUsage, "--synthesize: expected frequencies not below 0 Hz");
     const cli::Input input = read_main_input(true);
     const ModalModel model = modal_table_from_json(input.document, input.source);
     const std::vector<double> lines = synthesize_->values();
-    FrequencyResponse frf = synthesize(model, Eigen::Map<const Eigen::VectorXd>(lines.data(), static_cast<Eigen::Index>(lines.size())));
+    FrequencyResponse frf = synthesize(
+        model, Eigen::Map<const Eigen::VectorXd>(lines.data(), static_cast<Eigen::Index>(lines.size())));
     if (noise_db_ || noise_floor_db_) {
       add_noise(frf, {noise_db_, noise_floor_db_, static_cast<std::uint64_t>(seed_.value_or(1))});
       if (no_variance_) {
@@ -91,7 +100,9 @@ class FitModes : public cli::Tool {
     write_document(main_output(), std::move(document));
     if (!fitted_path_.empty()) {
       FrequencyResponse fitted = synthesize(result.model, measured.frequency_hz);
-      std::erase_if(fitted.entries, [&](const auto& entry) { return measured.find(entry.response, entry.reference) == nullptr; });
+      std::erase_if(fitted.entries, [&](const auto& entry) {
+        return measured.find(entry.response, entry.reference) == nullptr;
+      });
       write_document(fitted_path_, frf_to_json(fitted));
     }
   }
@@ -121,21 +132,26 @@ class FitModes : public cli::Tool {
     } else {
       frf = frf_from_json(input.document, input.source);
       if (!quantity_.empty() && frf.quantity != quantity_from_name(quantity_)) {
-        throw cli::Failure(cli::ExitStatus::kUsage, "--quantity: " + quantity_ + ": expected " + quantity_name(frf.quantity) +
+        throw cli::Failure(cli::ExitStatus::kUsage, "--quantity: " + quantity_ + ": expected " +
+                                                        quantity_name(frf.quantity) +
                                                         ", as the document says");
       }
     }
     for (std::size_t e = 0; e < frf.entries.size(); ++e) {
       if (frf.find(frf.entries[e].response, frf.entries[e].reference) != &frf.entries[e]) {
-        throw DataError(input.source.name, "/h/" + std::to_string(e), frf.entries[e].response + frf.entries[e].reference,
+        throw DataError(input.source.name, "/h/" + std::to_string(e),
+                        frf.entries[e].response + frf.entries[e].reference,
                         "measured at another position too: expected each pair of directions once");
       }
     }
     // Nothing is learnt at 0 Hz, and inertance and mobility cannot be converted there.
     const double least = std::numeric_limits<double>::min();
-    frf = within_band(frf, std::max(band_ ? band_->from : least, least), band_ ? band_->to : std::numeric_limits<double>::max());
+    frf = within_band(frf, std::max(band_ ? band_->from : least, least),
+                      band_ ? band_->to : std::numeric_limits<double>::max());
     if (frf.frequency_hz.size() == 0) {
-      throw DataError(input.source.name, "", "", "no lines in the band: expected some above 0 Hz" + std::string(band_ ? " in --band" : ""));
+      throw DataError(
+          input.source.name, "", "",
+          "no lines in the band: expected some above 0 Hz" + std::string(band_ ? " in --band" : ""));
     }
     return to_receptance(std::move(frf));
   }
@@ -149,7 +165,8 @@ class FitModes : public cli::Tool {
                         {"reduced_chi_square", curve.reduced_chi_square}});
     }
     Json report = {{"model", "nonsymmetric"},
-                   {"band_hz", Json::array({measured.frequency_hz[0], measured.frequency_hz[measured.frequency_hz.size() - 1]})},
+                   {"band_hz", Json::array({measured.frequency_hz[0],
+                                            measured.frequency_hz[measured.frequency_hz.size() - 1]})},
                    {"lines", measured.frequency_hz.size()},
                    {"noise", fit.variance_given ? "given" : "estimated"},
                    {"criterion", "bic"},

@@ -27,7 +27,8 @@ class SdmLobes : public cli::Tool {
  public:
   SdmLobes()
       : Tool("sdm-lobes",
-             "Stability lobes of milling from a modal table of the tool tip: spectral radii over speed and depth, "
+             "Stability lobes of milling from a modal table of the tool tip: spectral radii over speed and "
+             "depth, "
              "and the limit depth at each speed.",
              "lobes") {}
 
@@ -35,26 +36,32 @@ class SdmLobes : public cli::Tool {
   void setup(CLI::App& app) override {
     const auto positive = [](double value) { return value > 0; };
     const auto not_negative = [](double value) { return value >= 0; };
-    not_in_provenance(app.add_option("--cut", cut_path_, "Cut document: cutter, coefficients, engagement, chart")
-                          ->type_name("FILE"));
+    not_in_provenance(
+        app.add_option("--cut", cut_path_, "Cut document: cutter, coefficients, engagement, chart")
+            ->type_name("FILE"));
     cut_options_ = {
         cli::add_integer_option(app, "--teeth", teeth_, 1, "Number of teeth"),
-        cli::add_number_option(app, "--kt", kt_, "Tangential cutting coefficient, N/mm2", "a number above 0", positive),
+        cli::add_number_option(app, "--kt", kt_, "Tangential cutting coefficient, N/mm2", "a number above 0",
+                               positive),
         cli::add_number_option(app, "--kr", kr_, "Radial cutting coefficient, N/mm2", "a number not below 0",
                                not_negative),
         cli::add_choice_option(app, "--milling", milling_, "up|down", "Milling direction, with --immersion"),
-        cli::add_number_option(app, "--immersion", immersion_, "Radial immersion ae/D", "a ratio above 0 and at most 1",
+        cli::add_number_option(app, "--immersion", immersion_, "Radial immersion ae/D",
+                               "a ratio above 0 and at most 1",
                                [](double value) { return value > 0 && value <= 1; })};
-    cli::add_range_option(app, "--speed", speed_, "Spindle speeds, rpm (default: the cut's chart, else 2000:20000:64)");
+    cli::add_range_option(app, "--speed", speed_,
+                          "Spindle speeds, rpm (default: the cut's chart, else 2000:20000:64)");
     cli::add_range_option(app, "--depth", depth_, "Axial depths, mm (default: the cut's chart, else 0:5:64)");
     cli::add_choice_option(app, "--method", method_, "spectral|sdm",
                            "spectral (default): converged; sdm: the zeroth-order semi-discretization");
-    cli::add_integer_option(app, "--intervals", intervals_, 1, "Intervals per tooth period, for sdm (default: 40)");
+    cli::add_integer_option(app, "--intervals", intervals_, 1,
+                            "Intervals per tooth period, for sdm (default: 40)");
     app.add_option_function<std::string>(
            "--modes",
            [this](const std::string& text) {
              modes_ = parse_index_list(text);
-             if (!modes_) throw CLI::ValidationError("--modes", text + ": expected 1-based indices such as 1-7,14-15");
+             if (!modes_)
+               throw CLI::ValidationError("--modes", text + ": expected 1-based indices such as 1-7,14-15");
            },
            "Use only these modes of the table, such as 1-7,14-15")
         ->type_name("LIST");
@@ -76,7 +83,8 @@ class SdmLobes : public cli::Tool {
     const ModalModel model = selected_modes(whole_model, table.source);
     const TipStructure structure = structure_of(model, table.source);
     for (const std::string& dof : model.dofs) {
-      if (dof != "x" && dof != "y") warn(table.source.name + ": /dofs: \"" + dof + "\": left out: only x and y chatter here");
+      if (dof != "x" && dof != "y")
+        warn(table.source.name + ": /dofs: \"" + dof + "\": left out: only x and y chatter here");
     }
 
     LobesDocument lobes;
@@ -84,8 +92,12 @@ class SdmLobes : public cli::Tool {
                     intervals_.value_or(StabilityScheme{}.intervals)};
     const Range speed = speed_.value_or(cut.speed_rpm.value_or(kDefaultSpeed));
     const Range depth = depth_.value_or(cut.depth_mm.value_or(kDefaultDepth));
-    if (!(speed.from > 0)) throw cli::Failure(cli::ExitStatus::kUsage, "--speed: " + Json(speed.from).dump() + ": expected speeds above 0 rpm");
-    if (depth.from < 0) throw cli::Failure(cli::ExitStatus::kUsage, "--depth: " + Json(depth.from).dump() + ": expected depths not below 0 mm");
+    if (!(speed.from > 0))
+      throw cli::Failure(cli::ExitStatus::kUsage,
+                         "--speed: " + Json(speed.from).dump() + ": expected speeds above 0 rpm");
+    if (depth.from < 0)
+      throw cli::Failure(cli::ExitStatus::kUsage,
+                         "--depth: " + Json(depth.from).dump() + ": expected depths not below 0 mm");
     lobes.speed_rpm = speed.values();
     lobes.depth_mm = depth.values();
     lobes.cut = cut_as_used(cut_json, speed, depth);
@@ -101,14 +113,15 @@ class SdmLobes : public cli::Tool {
     for (const double mm : lobes.depth_mm) depths_m.push_back(metres_from_mm(mm));
     {
       cli::ProgressBar bar("sdm-lobes: chart", !quiet());
-      lobes.chart = stability_chart(structure, cut.cutter, revolutions_per_s, depths_m, lobes.scheme, !limit_only_,
-                                    threads(), [&](double share) { bar.show(share); });
+      lobes.chart = stability_chart(structure, cut.cutter, revolutions_per_s, depths_m, lobes.scheme,
+                                    !limit_only_, threads(), [&](double share) { bar.show(share); });
     }
     if (per_mode_) {
       lobes.per_mode = limit_of_each_mode(whole_model, cut.cutter, revolutions_per_s, depths_m, lobes.scheme);
     }
     judge(structure, cut.cutter, lobes);
-    if (lobes.scheme.method == StabilityMethod::kSpectral && std::max(lobes.chart.error, lobes.points_error) > kSuspectError) {
+    if (lobes.scheme.method == StabilityMethod::kSpectral &&
+        std::max(lobes.chart.error, lobes.points_error) > kSuspectError) {
       warn("the spectral radius has converged only to " +
            Json(std::max(lobes.chart.error, lobes.points_error)).dump() + " (see /convergence)");
     }
@@ -121,8 +134,9 @@ class SdmLobes : public cli::Tool {
                                           [](const CLI::Option* option) { return option->count() > 0; });
     if (!cut_path_.empty()) {
       if (from_options) {
-        throw cli::Failure(cli::ExitStatus::kUsage,
-                           "--cut: expected either a cut document or --teeth --kt --kr --milling --immersion");
+        throw cli::Failure(
+            cli::ExitStatus::kUsage,
+            "--cut: expected either a cut document or --teeth --kt --kr --milling --immersion");
       }
       const cli::Input input = read_input(cut_path_, true);
       cut_source_ = input.source;
@@ -130,12 +144,13 @@ class SdmLobes : public cli::Tool {
     }
     for (const CLI::Option* option : cut_options_) {
       if (option->count() == 0) {
-        throw cli::Failure(cli::ExitStatus::kUsage,
-                           option->get_name() + ": missing: expected --cut, or --teeth --kt --kr --milling --immersion");
+        throw cli::Failure(
+            cli::ExitStatus::kUsage,
+            option->get_name() + ": missing: expected --cut, or --teeth --kt --kr --milling --immersion");
       }
     }
     cut_source_.name = "options";
-    return {{"format", "stablecut/cut/1"}, {"teeth", *teeth_},     {"kt_n_per_mm2", *kt_},
+    return {{"format", "stablecut/cut/1"}, {"teeth", *teeth_},    {"kt_n_per_mm2", *kt_},
             {"kr_n_per_mm2", *kr_},        {"milling", milling_}, {"radial_immersion", *immersion_}};
   }
 
@@ -152,7 +167,9 @@ class SdmLobes : public cli::Tool {
   static Json cut_as_used(Json cut, const Range& speed, const Range& depth) {
     cut.erase("format");
     cut.erase("provenance");
-    const auto range = [](const Range& r) { return Json{{"from", r.from}, {"to", r.to}, {"count", r.count}}; };
+    const auto range = [](const Range& r) {
+      return Json{{"from", r.from}, {"to", r.to}, {"count", r.count}};
+    };
     cut["chart"] = {{"speed_rpm", range(speed)}, {"depth_mm", range(depth)}};
     return cut;
   }
@@ -162,9 +179,9 @@ class SdmLobes : public cli::Tool {
     ModalModel selected{model.dofs, {}};
     for (const int index : *modes_) {
       if (static_cast<std::size_t>(index) > model.modes.size()) {
-        throw cli::Failure(cli::ExitStatus::kUsage, "--modes: " + std::to_string(index) + ": expected at most " +
-                                                        std::to_string(model.modes.size()) + ", the modes of " +
-                                                        source.name);
+        throw cli::Failure(cli::ExitStatus::kUsage,
+                           "--modes: " + std::to_string(index) + ": expected at most " +
+                               std::to_string(model.modes.size()) + ", the modes of " + source.name);
       }
       selected.modes.push_back(model.modes[static_cast<std::size_t>(index - 1)]);
     }
@@ -177,14 +194,16 @@ class SdmLobes : public cli::Tool {
     }
     TipStructure structure = tip_structure(model);
     if (structure.modes() == 0) {
-      throw DataError(source.name, "/modes", "", "expected at least one mode that a force in x or y drives and that moves x or y");
+      throw DataError(source.name, "/modes", "",
+                      "expected at least one mode that a force in x or y drives and that moves x or y");
     }
     return structure;
   }
 
   std::vector<ModeLimit> limit_of_each_mode(const ModalModel& model, const Cutter& cutter,
                                             const std::vector<double>& revolutions_per_s,
-                                            const std::vector<double>& depths_m, const StabilityScheme& scheme) const {
+                                            const std::vector<double>& depths_m,
+                                            const StabilityScheme& scheme) const {
     std::vector<int> indices;
     for (int k = 1; k <= static_cast<int>(model.modes.size()); ++k) {
       if (!modes_ || std::binary_search(modes_->begin(), modes_->end(), k)) indices.push_back(k);
@@ -196,7 +215,8 @@ class SdmLobes : public cli::Tool {
       ModeLimit limit{indices[i], std::vector<std::optional<StabilityLimit>>(revolutions_per_s.size())};
       // A mode that a force at the tip does not drive, or that does not move it, cannot chatter.
       if (const TipStructure structure = tip_structure(alone); structure.modes() > 0) {
-        limit.limit = stability_chart(structure, cutter, revolutions_per_s, depths_m, scheme, false, threads()).limit;
+        limit.limit =
+            stability_chart(structure, cutter, revolutions_per_s, depths_m, scheme, false, threads()).limit;
       }
       result.push_back(std::move(limit));
       bar.show(static_cast<double>(i + 1) / static_cast<double>(indices.size()));

@@ -29,4 +29,6 @@ TEST_CASE("an exception in a worker reaches the caller") {
                   std::runtime_error);
 }
 
-TEST_CASE("nothing to do is done") { parallel_for(0, 4, [](std::size_t) { FAIL("called"); }); }
+TEST_CASE("nothing to do is done") {
+  parallel_for(0, 4, [](std::size_t) { FAIL("called"); });
+}

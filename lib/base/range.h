@@ -17,7 +17,8 @@ struct Range {
   std::vector<double> values() const;
 };
 
-/// A finite decimal number that fills the whole text, or nothing. The decimal mark is a point in every locale.
+/// A finite decimal number that fills the whole text, or nothing. The decimal mark is a point in every
+/// locale.
 std::optional<double> parse_number(std::string_view text);
 
 /// A decimal integer that fills the whole text, or nothing.

@@ -8,15 +8,15 @@ namespace stablecut::cli {
 
 enum class ExitStatus {
   kDone = 0,
-  kNoAnswer = 1,        ///< valid input without an answer
-  kUsage = 64,          ///< wrong options
-  kData = 65,           ///< wrong data
-  kNoInput = 66,        ///< input missing or unreadable
+  kNoAnswer = 1,  ///< valid input without an answer
+  kUsage = 64,    ///< wrong options
+  kData = 65,     ///< wrong data
+  kNoInput = 66,  ///< input missing or unreadable
   kInternal = 70,
-  kCannotCreate = 73,   ///< output cannot be created
-  kIo = 74,             ///< reading or writing failed
+  kCannotCreate = 73,  ///< output cannot be created
+  kIo = 74,            ///< reading or writing failed
   kInterrupted = 130,
-  kPipeClosed = 141,    ///< the reader of standard output is gone
+  kPipeClosed = 141,  ///< the reader of standard output is gone
 };
 
 /// Ends the tool with a status and a line.

@@ -59,7 +59,8 @@ void write_all(int file, const std::string& text, const std::string& name) {
   }
 }
 
-// Follows symbolic links, also one to a file that is not there yet, so that a rename replaces the file and not the link.
+// Follows symbolic links, also one to a file that is not there yet, so that a rename replaces the file and
+// not the link.
 std::string resolved(const std::string& path) {
   std::filesystem::path target = path;
   std::error_code error;
@@ -80,7 +81,9 @@ OutputSet::~OutputSet() {
   }
 }
 
-void OutputSet::add(const std::string& path, std::string text) { items_.push_back({path, std::move(text), "", ""}); }
+void OutputSet::add(const std::string& path, std::string text) {
+  items_.push_back({path, std::move(text), "", ""});
+}
 
 void OutputSet::prepare(Item& item) {
   struct stat status {};
@@ -90,7 +93,8 @@ void OutputSet::prepare(Item& item) {
     fail(ExitStatus::kCannotCreate, item.path, "cannot be created");
   }
   if (exists && !S_ISREG(status.st_mode)) return;
-  if (exists && access(item.path.c_str(), W_OK) != 0) fail(ExitStatus::kCannotCreate, item.path, "cannot be created");
+  if (exists && access(item.path.c_str(), W_OK) != 0)
+    fail(ExitStatus::kCannotCreate, item.path, "cannot be created");
   item.target = resolved(item.path);
   const auto slash = item.target.rfind('/');
   const std::string folder = slash == std::string::npos ? "" : item.target.substr(0, slash + 1);

@@ -6,9 +6,10 @@
 
 namespace stablecut::cli {
 
-/// Collects the texts of a run and writes them together: files are written beside their targets and synced first,
-/// then standard output is written, then the files are renamed into place. When anything fails, Failure is thrown
-/// and no file has changed. A target that is not a regular file (a device, a pipe) is written directly.
+/// Collects the texts of a run and writes them together: files are written beside their targets and synced
+/// first, then standard output is written, then the files are renamed into place. When anything fails,
+/// Failure is thrown and no file has changed. A target that is not a regular file (a device, a pipe) is
+/// written directly.
 class OutputSet {
  public:
   OutputSet() = default;
@@ -32,8 +33,8 @@ class OutputSet {
   std::vector<Item> items_;
 };
 
-/// From now on an interrupt or a termination removes unfinished files and ends the process, with 130 and 143, and
-/// a closed pipe is an error of the write.
+/// From now on an interrupt or a termination removes unfinished files and ends the process, with 130 and 143,
+/// and a closed pipe is an error of the write.
 void install_signal_handlers();
 
 }  // namespace stablecut::cli

@@ -32,8 +32,9 @@ void ProgressBar::show(double share) {
   last_ = now;
   drawn_ = true;
   const int filled = std::clamp(static_cast<int>(share * kWidth), 0, kWidth);
-  std::fprintf(stderr, "\r%s [%.*s%*s] %3d %%", label_.c_str(), filled, "########################################",
-               kWidth - filled, "", static_cast<int>(share * 100));
+  std::fprintf(stderr, "\r%s [%.*s%*s] %3d %%", label_.c_str(), filled,
+               "########################################", kWidth - filled, "",
+               static_cast<int>(share * 100));
 }
 
 }  // namespace stablecut::cli

@@ -29,8 +29,9 @@ bool looks_like_json(const std::string& text) {
 }
 
 template <typename T, typename Parse>
-CLI::Option* add_parsed_option(CLI::App& app, const std::string& name, T& value, const std::string& description,
-                               const std::string& type_name, const std::string& expected, const Parse& parse) {
+CLI::Option* add_parsed_option(CLI::App& app, const std::string& name, T& value,
+                               const std::string& description, const std::string& type_name,
+                               const std::string& expected, const Parse& parse) {
   return app
       .add_option_function<std::string>(
           name,
@@ -52,29 +53,32 @@ CLI::Option* add_range_option(CLI::App& app, const std::string& name, std::optio
 
 CLI::Option* add_band_option(CLI::App& app, const std::string& name, std::optional<Range>& value,
                              const std::string& description) {
-  return add_parsed_option(app, name, value, description, "LO:HI", "LO:HI, two increasing numbers", parse_band);
+  return add_parsed_option(app, name, value, description, "LO:HI", "LO:HI, two increasing numbers",
+                           parse_band);
 }
 
 CLI::Option* add_number_option(CLI::App& app, const std::string& name, std::optional<double>& value,
                                const std::string& description, const std::string& expected,
                                bool (*inside)(double)) {
-  return add_parsed_option(app, name, value, description, "NUMBER", expected, [inside](const std::string& text) {
-    const auto number = parse_number(text);
-    return number && inside(*number) ? number : std::nullopt;
-  });
+  return add_parsed_option(app, name, value, description, "NUMBER", expected,
+                           [inside](const std::string& text) {
+                             const auto number = parse_number(text);
+                             return number && inside(*number) ? number : std::nullopt;
+                           });
 }
 
 CLI::Option* add_integer_option(CLI::App& app, const std::string& name, std::optional<int>& value, int least,
                                 const std::string& description) {
-  return add_parsed_option(app, name, value, description, "N", "a whole number, at least " + std::to_string(least),
+  return add_parsed_option(app, name, value, description, "N",
+                           "a whole number, at least " + std::to_string(least),
                            [least](const std::string& text) {
                              const auto number = parse_integer(text);
                              return number && *number >= least ? number : std::nullopt;
                            });
 }
 
-CLI::Option* add_choice_option(CLI::App& app, const std::string& name, std::string& value, const std::string& words,
-                               const std::string& description) {
+CLI::Option* add_choice_option(CLI::App& app, const std::string& name, std::string& value,
+                               const std::string& words, const std::string& description) {
   return app
       .add_option_function<std::string>(
           name,
@@ -94,7 +98,8 @@ Tool::Tool(std::string name, std::string purpose, std::string main_kind)
 
 Input Tool::read_input(const std::string& path, bool must_be_json) {
   if (path == "-") {
-    if (standard_input_taken_) throw Failure(ExitStatus::kUsage, "-: expected standard input for one input only");
+    if (standard_input_taken_)
+      throw Failure(ExitStatus::kUsage, "-: expected standard input for one input only");
     standard_input_taken_ = true;
   }
   Input input{read_source(path), nullptr};
@@ -147,12 +152,14 @@ int Tool::parse(int argc, char** argv) {
   const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
   threads_ = static_cast<int>(cores);
   std::optional<int> threads;
-  not_in_provenance(add_integer_option(app_, "--threads", threads, 1, "Threads to work with (default: all cores)"));
+  not_in_provenance(
+      add_integer_option(app_, "--threads", threads, 1, "Threads to work with (default: all cores)"));
   not_in_provenance(app_.add_flag("--no-provenance", without_provenance_, "Leave the provenance out"));
-  schema_option_ = app_.add_option("--print-schema", schema_,
-                                   "Print the JSON Schema of a document kind and exit (default: what the tool writes)")
-                       ->type_name("KIND")
-                       ->expected(0, 1);
+  schema_option_ =
+      app_.add_option("--print-schema", schema_,
+                      "Print the JSON Schema of a document kind and exit (default: what the tool writes)")
+          ->type_name("KIND")
+          ->expected(0, 1);
   try {
     app_.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

@@ -20,8 +20,8 @@ struct Input {
   Json document;  ///< null when the text is not JSON
 };
 
-/// One executable. A tool declares its options in setup(), which opens nothing, and works in run(), which throws
-/// on failure; outputs are written after run() has returned.
+/// One executable. A tool declares its options in setup(), which opens nothing, and works in run(), which
+/// throws on failure; outputs are written after run() has returned.
 class Tool {
  public:
   /// `main_kind` is the document kind that --print-schema prints by default.
@@ -35,8 +35,8 @@ class Tool {
   virtual void setup(CLI::App& app) = 0;
   virtual void run() = 0;
 
-  /// The main input (INPUT, standard input by default) or another; remembered for the provenance. An input that
-  /// begins with { or [ is parsed as JSON, as is every input with `must_be_json`.
+  /// The main input (INPUT, standard input by default) or another; remembered for the provenance. An input
+  /// that begins with { or [ is parsed as JSON, as is every input with `must_be_json`.
   Input read_main_input(bool must_be_json) { return read_input(input_, must_be_json); }
   Input read_input(const std::string& path, bool must_be_json);
 
@@ -48,8 +48,8 @@ class Tool {
   int threads() const { return threads_; }
   bool quiet() const { return quiet_; }
 
-  /// Marks an option as one that does not change the result (where outputs go, names of inputs), so that it stays
-  /// out of the provenance.
+  /// Marks an option as one that does not change the result (where outputs go, names of inputs), so that it
+  /// stays out of the provenance.
   void not_in_provenance(const CLI::Option* option) { silent_options_.push_back(option); }
 
  private:
@@ -88,7 +88,7 @@ CLI::Option* add_integer_option(CLI::App& app, const std::string& name, std::opt
                                 const std::string& description);
 
 /// An option whose text must be one of the words, separated by | in `words`.
-CLI::Option* add_choice_option(CLI::App& app, const std::string& name, std::string& value, const std::string& words,
-                               const std::string& description);
+CLI::Option* add_choice_option(CLI::App& app, const std::string& name, std::string& value,
+                               const std::string& words, const std::string& description);
 
 }  // namespace stablecut::cli

@@ -11,17 +11,22 @@ namespace {
 
 constexpr int kMostTeeth = 1000;
 constexpr int kMostPoints = 1'000'000;
-constexpr Bound kImmersion{.least = 0, .most = 1, .open_least = true,
-                           .words = "a radial immersion ae/D above 0 and at most 1"};
+constexpr Bound kImmersion{
+    .least = 0, .most = 1, .open_least = true, .words = "a radial immersion ae/D above 0 and at most 1"};
 constexpr Bound kEngagementAngle{.least = 0, .most = 180, .words = "an angle from 0 to 180 degrees"};
-constexpr Bound kHelix{.least = -90, .most = 90, .open_least = true, .open_most = true,
+constexpr Bound kHelix{.least = -90,
+                       .most = 90,
+                       .open_least = true,
+                       .open_most = true,
                        .words = "a helix angle between -90 and 90 degrees"};
 
 Range chart_range(const Node& node, const Bound& bound) {
   node.check_names({"from", "to", "count"});
   Range range{node.at("from").number(bound), node.at("to").number(bound), kDefaultChartCount};
-  if (const auto count = node.find("count")) range.count = count->integer(1, kMostPoints);
-  else if (range.from == range.to) range.count = 1;
+  if (const auto count = node.find("count"))
+    range.count = count->integer(1, kMostPoints);
+  else if (range.from == range.to)
+    range.count = 1;
   if (range.count == 1 ? range.from != range.to : !(range.from < range.to)) {
     node.at("to").fail(range.count == 1 ? "expected the same number as from, since count is 1"
                                         : "expected a number above from");
@@ -32,7 +37,8 @@ Range chart_range(const Node& node, const Bound& bound) {
 void read_engagement(const Node& root, Cutter& cutter) {
   if (root.has("radial_immersion")) {
     if (root.has("entry_deg") || root.has("exit_deg")) {
-      root.at("radial_immersion").fail("expected either radial_immersion with milling or entry_deg with exit_deg");
+      root.at("radial_immersion")
+          .fail("expected either radial_immersion with milling or entry_deg with exit_deg");
     }
     const bool up = root.at("milling").word({"up", "down"}) == "up";
     set_immersion(cutter, up, root.at("radial_immersion").number(kImmersion));
@@ -50,7 +56,8 @@ void read_engagement(const Node& root, Cutter& cutter) {
 void refuse_what_is_not_computed(const Node& root, int teeth) {
   if (const auto pitch = root.find("pitch_deg")) {
     const Eigen::VectorXd angles = pitch->numbers(kPositive);
-    if (angles.size() != teeth) pitch->fail("expected " + std::to_string(teeth) + " angles, one for each tooth");
+    if (angles.size() != teeth)
+      pitch->fail("expected " + std::to_string(teeth) + " angles, one for each tooth");
     if (std::abs(angles.sum() - 360) > 1e-6) pitch->fail("expected angles that sum to 360 degrees");
     if ((angles.array() - 360.0 / teeth).abs().maxCoeff() > 1e-6) {
       pitch->fail("expected equal angles: unequal pitch is not computed by this version");
@@ -65,8 +72,9 @@ void refuse_what_is_not_computed(const Node& root, int teeth) {
 
 CutDocument cut_from_json(const Json& document, const Source& source) {
   const Node root = document_root(document, source, "cut");
-  root.check_names({"format", "teeth", "kt_n_per_mm2", "kr_n_per_mm2", "milling", "radial_immersion", "entry_deg",
-                    "exit_deg", "feed_angle_deg", "pitch_deg", "helix_deg", "diameter_mm", "chart", "provenance"});
+  root.check_names({"format", "teeth", "kt_n_per_mm2", "kr_n_per_mm2", "milling", "radial_immersion",
+                    "entry_deg", "exit_deg", "feed_angle_deg", "pitch_deg", "helix_deg", "diameter_mm",
+                    "chart", "provenance"});
   CutDocument cut;
   cut.cutter.teeth = root.at("teeth").integer(1, kMostTeeth);
   cut.cutter.kt_n_per_m2 = n_per_m2_from_n_per_mm2(root.at("kt_n_per_mm2").number(kPositive));

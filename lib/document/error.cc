@@ -25,9 +25,12 @@ DataError::DataError(const std::string& file, const std::string& place, const st
 std::string pointer_step(const std::string& pointer, const std::string& step) {
   std::string result = pointer + '/';
   for (const char c : step) {
-    if (c == '~') result += "~0";
-    else if (c == '/') result += "~1";
-    else result += c;
+    if (c == '~')
+      result += "~0";
+    else if (c == '/')
+      result += "~1";
+    else
+      result += c;
   }
   return result;
 }

@@ -50,9 +50,12 @@ FrequencyResponseEntry entry_from(const Node& node, Eigen::Index lines) {
 
 const char* quantity_name(Quantity quantity) {
   switch (quantity) {
-    case Quantity::kReceptance: return "receptance";
-    case Quantity::kMobility: return "mobility";
-    case Quantity::kAccelerance: return "accelerance";
+    case Quantity::kReceptance:
+      return "receptance";
+    case Quantity::kMobility:
+      return "mobility";
+    case Quantity::kAccelerance:
+      return "accelerance";
   }
   return "";
 }
@@ -70,7 +73,9 @@ double take_sign(std::string& direction) {
   return sign;
 }
 
-Json number_list(const Eigen::VectorXd& values) { return Json(std::vector<double>(values.begin(), values.end())); }
+Json number_list(const Eigen::VectorXd& values) {
+  return Json(std::vector<double>(values.begin(), values.end()));
+}
 
 Json complex_series(const Eigen::VectorXcd& values) {
   return {{"re", number_list(values.real())}, {"im", number_list(values.imag())}};
@@ -114,7 +119,8 @@ Json frf_to_json(const FrequencyResponse& frf) {
     if (entry.coherence.size() > 0) item["coherence"] = number_list(entry.coherence);
     if (entry.averages) item["averages"] = *entry.averages;
     if (entry.response_position_m) item["response_position_mm"] = mm_from_metres(*entry.response_position_m);
-    if (entry.reference_position_m) item["reference_position_mm"] = mm_from_metres(*entry.reference_position_m);
+    if (entry.reference_position_m)
+      item["reference_position_mm"] = mm_from_metres(*entry.reference_position_m);
     h.push_back(std::move(item));
   }
   return {{"format", "stablecut/frf/1"},

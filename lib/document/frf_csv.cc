@@ -74,8 +74,9 @@ std::vector<EntryColumns> columns_by_count(const Source& source, const TableRow&
   if (row.fields.size() == 9) {
     return {{"x", "x", 1, 2}, {"x", "y", 3, 4}, {"y", "x", 5, 6}, {"y", "y", 7, 8}};
   }
-  throw DataError(source.name, line_place(row.line), std::to_string(row.fields.size()) + " columns",
-                  "expected 3 columns (Hz, real, imaginary), 9 (xx, xy, yx, yy), or a header that names them");
+  throw DataError(
+      source.name, line_place(row.line), std::to_string(row.fields.size()) + " columns",
+      "expected 3 columns (Hz, real, imaginary), 9 (xx, xy, yx, yy), or a header that names them");
 }
 
 }  // namespace
@@ -88,7 +89,8 @@ FrequencyResponse frf_from_csv(const Source& source, Quantity quantity) {
     columns = named_columns(source, rows.front());
     const long header_line = rows.front().line;
     rows.erase(rows.begin());
-    if (rows.empty()) throw DataError(source.name, line_place(header_line), "", "expected numbers below the header");
+    if (rows.empty())
+      throw DataError(source.name, line_place(header_line), "", "expected numbers below the header");
   }
   if (columns.empty()) columns = columns_by_count(source, rows.front());
 

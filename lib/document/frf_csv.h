@@ -6,9 +6,9 @@
 
 namespace stablecut {
 
-/// Without a header, 3 columns are the entry xx, 9 columns xx, xy, yx, yy. With a header, each pair of columns is
-/// named by its directions and part, as in `frequency_hz, xx_re, xx_im, Hxy real, Hxy imag`. Throws DataError
-/// with the line.
+/// Without a header, 3 columns are the entry xx, 9 columns xx, xy, yx, yy. With a header, each pair of
+/// columns is named by its directions and part, as in `frequency_hz, xx_re, xx_im, Hxy real, Hxy imag`.
+/// Throws DataError with the line.
 FrequencyResponse frf_from_csv(const Source& source, Quantity quantity);
 
 }  // namespace stablecut

@@ -67,7 +67,8 @@ class Builder : public nlohmann::json_sax<Json> {
     std::set<std::string> keys;  // seen so far
   };
 
-  [[noreturn]] void fail(const std::string& place, const std::string& value, const std::string& expected) const {
+  [[noreturn]] void fail(const std::string& place, const std::string& value,
+                         const std::string& expected) const {
     throw DataError(source_.name, place, value, expected);
   }
 
@@ -75,7 +76,8 @@ class Builder : public nlohmann::json_sax<Json> {
   std::string whole_token(std::size_t position, const std::string& last_token) const {
     const auto& text = source_.text;
     const auto is_word = [&](std::size_t i) {
-      return std::isalnum(static_cast<unsigned char>(text[i])) || text[i] == '.' || text[i] == '-' || text[i] == '+';
+      return std::isalnum(static_cast<unsigned char>(text[i])) || text[i] == '.' || text[i] == '-' ||
+             text[i] == '+';
     };
     std::size_t from = std::min(position == 0 ? 0 : position - 1, text.size() - 1), to = from;
     if (!is_word(from)) return last_token;
@@ -92,7 +94,8 @@ class Builder : public nlohmann::json_sax<Json> {
   // Of the value that comes next.
   std::string next_pointer() const { return levels_.empty() ? "" : step(pointer(), levels_.back(), 0); }
   static std::string step(const std::string& from, const Level& level, std::size_t already_added) {
-    if (level.value->is_array()) return pointer_step(from, std::to_string(level.value->size() - already_added));
+    if (level.value->is_array())
+      return pointer_step(from, std::to_string(level.value->size() - already_added));
     return level.key.empty() ? from : pointer_step(from, level.key);
   }
 

@@ -1,4 +1,5 @@
-// JSON text to values and back, with the contract's rules: no duplicate keys, finite numbers, errors by place.
+// JSON text to values and back, with the contract's rules: no duplicate keys, finite numbers, errors by
+// place.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -15,12 +16,12 @@ struct Source {
   std::string text;
 };
 
-/// The one JSON value of the text. Throws DataError with pointer and line for broken JSON, a duplicate key, or a
-/// number that a double cannot hold.
+/// The one JSON value of the text. Throws DataError with pointer and line for broken JSON, a duplicate key,
+/// or a number that a double cannot hold.
 Json parse_json(const Source& source);
 
-/// Shortest text that reads back to the same numbers: objects and lists of objects indented, lists of numbers on
-/// one line, a newline at the end. Throws std::logic_error when a number is not finite.
+/// Shortest text that reads back to the same numbers: objects and lists of objects indented, lists of numbers
+/// on one line, a newline at the end. Throws std::logic_error when a number is not finite.
 std::string json_text(const Json& value);
 
 }  // namespace stablecut

@@ -41,11 +41,15 @@ TEST_CASE("text reads back to the same value") {
   std::mt19937_64 generator(1);
   Json numbers = Json::array();
   for (int i = 0; i < 1000; ++i) {
-    const double value = std::ldexp(static_cast<double>(generator()), static_cast<int>(generator() % 400) - 200);
+    const double value =
+        std::ldexp(static_cast<double>(generator()), static_cast<int>(generator() % 400) - 200);
     numbers.push_back(value);
   }
-  const Json value = {{"n", numbers}, {"empty", Json::array()}, {"pairs", {{1.5, 2.0}, {3.0, -4.0}}},
-                      {"nested", {{{"a", 1}, {"b", nullptr}}, {{"a", 2}, {"b", "x\n\"y\""}}}}, {"z", Json::object()}};
+  const Json value = {{"n", numbers},
+                      {"empty", Json::array()},
+                      {"pairs", {{1.5, 2.0}, {3.0, -4.0}}},
+                      {"nested", {{{"a", 1}, {"b", nullptr}}, {{"a", 2}, {"b", "x\n\"y\""}}}},
+                      {"z", Json::object()}};
   const std::string text = json_text(value);
   CHECK(parse_json({"", text}) == value);
   CHECK(json_text(parse_json({"", text})) == text);

@@ -9,14 +9,18 @@ namespace {
 
 const char* instability_name(Instability kind) {
   switch (kind) {
-    case Instability::kHopf: return "hopf";
-    case Instability::kFlip: return "flip";
-    case Instability::kFold: return "fold";
+    case Instability::kHopf:
+      return "hopf";
+    case Instability::kFlip:
+      return "flip";
+    case Instability::kFold:
+      return "fold";
   }
   return "";
 }
 
-Json limit_to_json(const std::vector<double>& speed_rpm, const std::vector<std::optional<StabilityLimit>>& limit) {
+Json limit_to_json(const std::vector<double>& speed_rpm,
+                   const std::vector<std::optional<StabilityLimit>>& limit) {
   Json list = Json::array();
   for (std::size_t s = 0; s < speed_rpm.size(); ++s) {
     Json item = {{"speed_rpm", speed_rpm[s]}, {"depth_mm", nullptr}};

@@ -27,7 +27,8 @@ std::vector<MeasuredCut> from_json(const Json& document, const Source& source) {
 
 std::vector<MeasuredCut> from_csv(const Source& source) {
   std::vector<TableRow> rows = table_rows(source);
-  if (rows.empty()) throw DataError(source.name, "", "", "empty input: expected depth_mm,speed_rpm[,observed]");
+  if (rows.empty())
+    throw DataError(source.name, "", "", "empty input: expected depth_mm,speed_rpm[,observed]");
   std::size_t depth = 0, speed = 1, observed = 2;
   if (is_header(rows.front())) {
     const auto column = [&](const char* name) {
@@ -47,9 +48,11 @@ std::vector<MeasuredCut> from_csv(const Source& source) {
   std::vector<MeasuredCut> cuts;
   for (const TableRow& row : rows) {
     MeasuredCut cut{table_number(source, row, depth, "a depth in mm"),
-                    table_number(source, row, speed, "a speed in rpm"), {}};
+                    table_number(source, row, speed, "a speed in rpm"),
+                    {}};
     if (cut.depth_mm < 0) {
-      throw DataError(source.name, line_place(row.line), row.fields[depth], "expected a depth not below 0 mm");
+      throw DataError(source.name, line_place(row.line), row.fields[depth],
+                      "expected a depth not below 0 mm");
     }
     if (!(cut.speed_rpm > 0)) {
       throw DataError(source.name, line_place(row.line), row.fields[speed], "expected a speed above 0 rpm");

@@ -8,13 +8,17 @@
 namespace stablecut {
 namespace {
 
-constexpr Bound kDampingRatio{.least = 0, .most = 1, .open_least = true, .open_most = true,
+constexpr Bound kDampingRatio{.least = 0,
+                              .most = 1,
+                              .open_least = true,
+                              .open_most = true,
                               .words = "a damping ratio above 0 and below 1"};
 constexpr Bound kFrequency{.least = 0, .open_least = true, .words = "a frequency above 0 Hz"};
 
 Eigen::VectorXcd vector_from(const Node& node, std::size_t dofs) {
   const auto items = node.items();
-  if (items.size() != dofs) node.fail("expected " + std::to_string(dofs) + " complex numbers, one for each of /dofs");
+  if (items.size() != dofs)
+    node.fail("expected " + std::to_string(dofs) + " complex numbers, one for each of /dofs");
   Eigen::VectorXcd psi(static_cast<Eigen::Index>(dofs));
   for (std::size_t i = 0; i < dofs; ++i) psi[static_cast<Eigen::Index>(i)] = items[i].complex();
   return psi;
@@ -73,7 +77,8 @@ Json modal_table_to_json(const ModalModel& model) {
                  {"psi_l", vector_to(mode.psi_l)}};
     if (mode.out_of_band) item["out_of_band"] = true;
     if (mode.deviation) {
-      item["std"] = {{"frequency_hz", mode.deviation->frequency_hz}, {"damping_ratio", mode.deviation->damping_ratio}};
+      item["std"] = {{"frequency_hz", mode.deviation->frequency_hz},
+                     {"damping_ratio", mode.deviation->damping_ratio}};
     }
     modes.push_back(std::move(item));
   }

@@ -6,7 +6,8 @@
 
 namespace stablecut {
 
-/// Reads the modes in any scale; a dof with a sign ("-x") turns its components and loses it. Throws DataError.
+/// Reads the modes in any scale; a dof with a sign ("-x") turns its components and loses it. Throws
+/// DataError.
 ModalModel modal_table_from_json(const Json& document, const Source& source);
 
 /// The document without `fit` and provenance, modes in the order given and normalised.

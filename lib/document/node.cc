@@ -21,9 +21,9 @@ bool nearly_equal(std::string_view a, std::string_view b) {
 // The name without the unit words at its end: depth_mm -> depth, k2_n_m_per_rad -> k2.
 std::string_view stem(std::string_view name) {
   static constexpr std::array<std::string_view, 42> kUnits = {
-      "hz", "khz", "mhz", "rpm", "rps", "deg", "rad", "s",  "ms", "us", "min", "m",  "mm", "um",
-      "nm", "cm",  "in",  "mm2", "mm3", "m2",  "m3",  "s2", "n",  "kn", "mn",  "pa", "mpa", "gpa",
-      "kpa", "kg", "g",   "per", "j",   "w",   "kw",  "nmm", "percent", "pct", "db", "v", "mrad", "urad"};
+      "hz",  "khz", "mhz", "rpm", "rps", "deg", "rad", "s",   "ms",      "us",  "min", "m",  "mm",   "um",
+      "nm",  "cm",  "in",  "mm2", "mm3", "m2",  "m3",  "s2",  "n",       "kn",  "mn",  "pa", "mpa",  "gpa",
+      "kpa", "kg",  "g",   "per", "j",   "w",   "kw",  "nmm", "percent", "pct", "db",  "v",  "mrad", "urad"};
   for (;;) {
     const auto end = name.rfind('_');
     if (end == std::string_view::npos || end == 0) return name;
@@ -39,9 +39,12 @@ Node::Node(const Json& value, const Source& source, std::string pointer)
 
 void Node::fail(const std::string& expected) const {
   std::string value;
-  if (value_->is_object()) value = "an object";
-  else if (value_->is_array()) value = "a list of " + std::to_string(value_->size());
-  else value = value_->dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (value_->is_object())
+    value = "an object";
+  else if (value_->is_array())
+    value = "a list of " + std::to_string(value_->size());
+  else
+    value = value_->dump(-1, ' ', false, Json::error_handler_t::replace);
   throw DataError(source_->name, pointer_.empty() ? "/" : pointer_, value, expected);
 }
 
@@ -54,7 +57,8 @@ std::optional<Node> Node::find(std::string_view name) const {
 
 Node Node::at(std::string_view name) const {
   if (auto found = find(name)) return *found;
-  throw DataError(source_->name, pointer_step(pointer_, std::string(name)), "", "missing: expected this field");
+  throw DataError(source_->name, pointer_step(pointer_, std::string(name)), "",
+                  "missing: expected this field");
 }
 
 void Node::check_names(std::initializer_list<std::string_view> known) const {
@@ -63,8 +67,9 @@ void Node::check_names(std::initializer_list<std::string_view> known) const {
     if (std::find(known.begin(), known.end(), name) != known.end() || name.starts_with("x_")) continue;
     for (const auto& candidate : known) {
       if (nearly_equal(name, candidate) || stem(name) == stem(candidate)) {
-        throw DataError(source_->name, pointer_step(pointer_, name), "",
-                        "unknown field: expected " + std::string(candidate) + " (a field of your own starts with x_)");
+        throw DataError(
+            source_->name, pointer_step(pointer_, name), "",
+            "unknown field: expected " + std::string(candidate) + " (a field of your own starts with x_)");
       }
     }
   }
@@ -74,7 +79,8 @@ double Node::number(const Bound& bound) const {
   const std::string expected = std::string("expected ") + bound.words;
   if (!value_->is_number()) fail(expected);
   const auto value = value_->get<double>();
-  const bool inside = std::isfinite(value) && (bound.open_least ? value > bound.least : value >= bound.least) &&
+  const bool inside = std::isfinite(value) &&
+                      (bound.open_least ? value > bound.least : value >= bound.least) &&
                       (bound.open_most ? value < bound.most : value <= bound.most);
   if (!inside) fail(expected);
   return value;
@@ -116,7 +122,8 @@ Eigen::VectorXd Node::numbers(const Bound& bound) const {
     // The common case without building a pointer.
     const double value = item.is_number() ? item.get<double>() : std::numeric_limits<double>::quiet_NaN();
     const bool inside = std::isfinite(value) && value > bound.least && value < bound.most;
-    result[i] = inside ? value : Node(item, *source_, pointer_step(pointer_, std::to_string(i))).number(bound);
+    result[i] =
+        inside ? value : Node(item, *source_, pointer_step(pointer_, std::to_string(i))).number(bound);
     ++i;
   }
   return result;

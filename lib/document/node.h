@@ -36,8 +36,8 @@ class Node {
   std::optional<Node> find(std::string_view name) const;
   bool has(std::string_view name) const { return value_->is_object() && value_->contains(std::string(name)); }
 
-  /// Checks this object's names: one within edit distance 1 of a known name, or with the stem of a known name and
-  /// another unit, is an error; others are free.
+  /// Checks this object's names: one within edit distance 1 of a known name, or with the stem of a known name
+  /// and another unit, is an error; others are free.
   void check_names(std::initializer_list<std::string_view> known) const;
 
   double number(const Bound& bound = kAnyNumber) const;

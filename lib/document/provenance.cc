@@ -30,8 +30,9 @@ bool is_provenance(const Json& value) {
   const auto has = [](const Json& object, const char* name, bool (Json::*is)() const noexcept) {
     return object.contains(name) && (object[name].*is)();
   };
-  if (!value.is_object() || !has(value, "tool", &Json::is_string) || !has(value, "version", &Json::is_string) ||
-      !has(value, "arguments", &Json::is_array) || !has(value, "inputs", &Json::is_array)) {
+  if (!value.is_object() || !has(value, "tool", &Json::is_string) ||
+      !has(value, "version", &Json::is_string) || !has(value, "arguments", &Json::is_array) ||
+      !has(value, "inputs", &Json::is_array)) {
     return false;
   }
   const auto is_text = [](const Json& item) { return item.is_string(); };
@@ -55,8 +56,8 @@ ProvenanceInput provenance_input(const Source& source, const Json& document) {
   return input;
 }
 
-Json provenance(const std::string& tool, const std::string& version, const std::vector<std::string>& arguments,
-                const std::vector<ProvenanceInput>& inputs) {
+Json provenance(const std::string& tool, const std::string& version,
+                const std::vector<std::string>& arguments, const std::vector<ProvenanceInput>& inputs) {
   Json list = Json::array();
   for (const ProvenanceInput& input : inputs) {
     Json item = {{"name", input.name}, {"sha256", input.sha256}};

@@ -22,7 +22,7 @@ struct ProvenanceInput {
 ProvenanceInput provenance_input(const Source& source, const Json& document);
 
 /// The "provenance" member: tool, version, the arguments that change the result, the inputs.
-Json provenance(const std::string& tool, const std::string& version, const std::vector<std::string>& arguments,
-                const std::vector<ProvenanceInput>& inputs);
+Json provenance(const std::string& tool, const std::string& version,
+                const std::vector<std::string>& arguments, const std::vector<ProvenanceInput>& inputs);
 
 }  // namespace stablecut

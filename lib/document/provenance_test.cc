@@ -10,15 +10,18 @@ TEST_CASE("SHA-256 of the standard's test messages") {
 }
 
 TEST_CASE("an input's own provenance is carried on") {
-  const Source source{"a.json", R"({"provenance": {"tool": "t", "version": "1", "arguments": [], "inputs": []}})"};
+  const Source source{"a.json",
+                      R"({"provenance": {"tool": "t", "version": "1", "arguments": [], "inputs": []}})"};
   const Json result = provenance("u", "1", {"--x"}, {provenance_input(source, parse_json(source))});
   CHECK(result["inputs"][0]["from"]["tool"] == "t");
   CHECK(result["inputs"][0]["sha256"] == sha256(source.text));
-  CHECK_FALSE(provenance("u", "1", {}, {provenance_input({"b.csv", "1,2"}, nullptr)})["inputs"][0].contains("from"));
+  CHECK_FALSE(
+      provenance("u", "1", {}, {provenance_input({"b.csv", "1,2"}, nullptr)})["inputs"][0].contains("from"));
 }
 
 TEST_CASE("what only calls itself a provenance is not carried on") {
-  for (const char* text : {R"({"provenance": "hello"})", R"({"provenance": {}})", R"({"provenance": {"tool": "t"}})"}) {
+  for (const char* text :
+       {R"({"provenance": "hello"})", R"({"provenance": {}})", R"({"provenance": {"tool": "t"}})"}) {
     const Source source{"a.json", text};
     CHECK(provenance_input(source, parse_json(source)).from.is_null());
   }

@@ -19,7 +19,8 @@ std::string_view trimmed(std::string_view text) {
 
 std::string_view unquoted(std::string_view field) {
   field = trimmed(field);
-  if (field.size() >= 2 && field.front() == '"' && field.back() == '"') field = field.substr(1, field.size() - 2);
+  if (field.size() >= 2 && field.front() == '"' && field.back() == '"')
+    field = field.substr(1, field.size() - 2);
   return field;
 }
 
@@ -80,7 +81,8 @@ bool is_header(const TableRow& row) {
 double table_number(const Source& source, const TableRow& row, std::size_t column, const char* expected) {
   const std::string wanted = std::string("expected ") + expected + " in column " + std::to_string(column + 1);
   if (column >= row.fields.size()) {
-    throw DataError(source.name, line_place(row.line), std::to_string(row.fields.size()) + " columns", wanted);
+    throw DataError(source.name, line_place(row.line), std::to_string(row.fields.size()) + " columns",
+                    wanted);
   }
   const auto value = parse_number(row.fields[column]);
   if (!value) throw DataError(source.name, line_place(row.line), '"' + row.fields[column] + '"', wanted);

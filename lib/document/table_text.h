@@ -14,9 +14,9 @@ struct TableRow {
   std::vector<std::string> fields;
 };
 
-/// The rows of the text. The separator is the first of tab, semicolon, comma that the first row holds, else blanks.
-/// CRLF, a byte-order mark and quotes around a field are taken off. With semicolons or tabs a decimal comma is
-/// read as a point where the whole field is a number.
+/// The rows of the text. The separator is the first of tab, semicolon, comma that the first row holds, else
+/// blanks. CRLF, a byte-order mark and quotes around a field are taken off. With semicolons or tabs a decimal
+/// comma is read as a point where the whole field is a number.
 std::vector<TableRow> table_rows(const Source& source);
 
 /// True when no field of the row is a number: a header.

@@ -8,7 +8,8 @@
 using namespace stablecut;
 
 TEST_CASE("separators, comments, CRLF, byte-order mark, quotes, decimal commas") {
-  for (const char* text : {"1.5,2,3\n", "\"1.5\",\"2\",\"3\"\n", "\xEF\xBB\xBF\"1.5\";2;3\r\n", "# note\n\n1,5;2;3", "1.5\t2\t3", "  1.5   2 3 "}) {
+  for (const char* text : {"1.5,2,3\n", "\"1.5\",\"2\",\"3\"\n", "\xEF\xBB\xBF\"1.5\";2;3\r\n",
+                           "# note\n\n1,5;2;3", "1.5\t2\t3", "  1.5   2 3 "}) {
     INFO(text);
     const auto rows = table_rows({"f", text});
     REQUIRE(rows.size() == 1);
@@ -22,7 +23,8 @@ TEST_CASE("FRF columns by count and by name") {
   REQUIRE(plain.entries.size() == 1);
   CHECK(plain.quantity == Quantity::kMobility);
   CHECK(plain.entries[0].h[1] == std::complex<double>(4, 5));
-  const auto named = frf_from_csv({"f", "f_hz,Hxy (imag),Hxy (real),yy_re,yy_im\n1,2,3,4,5\n"}, Quantity::kReceptance);
+  const auto named =
+      frf_from_csv({"f", "f_hz,Hxy (imag),Hxy (real),yy_re,yy_im\n1,2,3,4,5\n"}, Quantity::kReceptance);
   REQUIRE(named.entries.size() == 2);
   CHECK(named.find("x", "y")->h[0] == std::complex<double>(3, 2));
   CHECK(named.find("y", "y")->h[0] == std::complex<double>(4, 5));

@@ -14,12 +14,12 @@ enum class Quantity { kReceptance = 0, kMobility = 1, kAccelerance = 2 };
 
 /// One measured pair of directions: H_ij is the response in direction i to a force in direction j.
 struct FrequencyResponseEntry {
-  std::string response;           ///< direction name: "x", "y", "slope_x", ...
-  std::string reference;          ///< direction name of the force (or moment)
-  Eigen::VectorXcd h;             ///< [lines]
-  Eigen::VectorXd variance;       ///< [lines] E|error|^2 of the complex value, both parts; empty: unknown
-  Eigen::VectorXd coherence;      ///< [lines] 0..1; empty: unknown
-  std::optional<double> averages;              ///< number of averages behind the coherence
+  std::string response;            ///< direction name: "x", "y", "slope_x", ...
+  std::string reference;           ///< direction name of the force (or moment)
+  Eigen::VectorXcd h;              ///< [lines]
+  Eigen::VectorXd variance;        ///< [lines] E|error|^2 of the complex value, both parts; empty: unknown
+  Eigen::VectorXd coherence;       ///< [lines] 0..1; empty: unknown
+  std::optional<double> averages;  ///< number of averages behind the coherence
   std::optional<double> response_position_m;   ///< distance from the tip
   std::optional<double> reference_position_m;  ///< distance from the tip
 };

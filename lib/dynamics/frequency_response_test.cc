@@ -17,7 +17,8 @@ FrequencyResponse sample(Quantity quantity) {
   FrequencyResponseEntry entry;
   entry.response = "x";
   entry.reference = "y";
-  entry.h = Eigen::Vector3cd(std::complex<double>(1, 2), std::complex<double>(3, -1), std::complex<double>(0, 1));
+  entry.h =
+      Eigen::Vector3cd(std::complex<double>(1, 2), std::complex<double>(3, -1), std::complex<double>(0, 1));
   entry.variance = Eigen::Vector3d(1, 4, 9);
   frf.entries.push_back(entry);
   return frf;

@@ -16,13 +16,14 @@ struct ModeDeviation {
   double damping_ratio = 0;
 };
 
-/// One complex mode. Its part of the receptance is psi_r psi_l^T / (i w - lambda) + conjugate pole and vectors.
+/// One complex mode. Its part of the receptance is psi_r psi_l^T / (i w - lambda) + conjugate pole and
+/// vectors.
 struct Mode {
-  double frequency_hz = 0;   ///< |lambda| / (2 pi)
-  double damping_ratio = 0;  ///< -Re(lambda) / |lambda|, in (0, 1)
-  Eigen::VectorXcd psi_r;    ///< [dofs] right vector, sqrt(s/kg)
-  Eigen::VectorXcd psi_l;    ///< [dofs] left vector, sqrt(s/kg)
-  bool out_of_band = false;  ///< stands for what lies outside the measured band
+  double frequency_hz = 0;                 ///< |lambda| / (2 pi)
+  double damping_ratio = 0;                ///< -Re(lambda) / |lambda|, in (0, 1)
+  Eigen::VectorXcd psi_r;                  ///< [dofs] right vector, sqrt(s/kg)
+  Eigen::VectorXcd psi_l;                  ///< [dofs] left vector, sqrt(s/kg)
+  bool out_of_band = false;                ///< stands for what lies outside the measured band
   std::optional<ModeDeviation> deviation;  ///< when known
 
   /// lambda with positive imaginary part, rad/s.

@@ -19,7 +19,8 @@ Mode mode_with(Eigen::Vector2cd psi_r, Eigen::Vector2cd psi_l) {
 }  // namespace
 
 TEST_CASE("normalising keeps the residue and fixes scale and phase") {
-  const Mode mode = mode_with({Complex(0.3, -2), Complex(-5, 1)}, {Complex(1e-4, 2e-5), Complex(-3e-5, 4e-5)});
+  const Mode mode =
+      mode_with({Complex(0.3, -2), Complex(-5, 1)}, {Complex(1e-4, 2e-5), Complex(-3e-5, 4e-5)});
   const Mode result = normalised(mode);
   CHECK((result.residue() - mode.residue()).norm() < 1e-15 * mode.residue().norm());
   CHECK(result.psi_r.norm() == Approx(result.psi_l.norm()).epsilon(1e-14));

@@ -11,7 +11,8 @@
 
 namespace stablecut {
 
-/// Receptance matrix [dofs x dofs], m/N, at the complex frequency s (rad/s; s = i omega on the axis), eq. (6-22).
+/// Receptance matrix [dofs x dofs], m/N, at the complex frequency s (rad/s; s = i omega on the axis), eq.
+/// (6-22).
 Eigen::MatrixXcd receptance_at(const ModalModel& model, std::complex<double> s);
 
 /// All entries (response major) of the model's receptance on the given lines.

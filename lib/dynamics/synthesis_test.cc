@@ -41,7 +41,8 @@ TEST_CASE("noise has the variance that it says, and its seed decides it") {
   const auto model = oscillator(0.04, 922, 0.3);
   const Eigen::VectorXd lines = Eigen::VectorXd::LinSpaced(20000, 100, 2000);
   const auto clean = synthesize(model, lines);
-  for (const NoiseLevel& level : {NoiseLevel{40.0, {}, 7}, NoiseLevel{{}, 30.0, 7}, NoiseLevel{20.0, 30.0, 7}}) {
+  for (const NoiseLevel& level :
+       {NoiseLevel{40.0, {}, 7}, NoiseLevel{{}, 30.0, 7}, NoiseLevel{20.0, 30.0, 7}}) {
     auto noisy = clean;
     add_noise(noisy, level);
     const Eigen::VectorXd ratio =

@@ -1,7 +1,7 @@
 #include "milling/cutter.h"
 
-#include <algorithm>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
@@ -10,8 +10,8 @@
 namespace stablecut {
 namespace {
 
-// Breakpoints closer than this are one: entry and exit fall on each other when a whole number of pitches is in
-// cut, as in slotting with an even number of teeth.
+// Breakpoints closer than this are one: entry and exit fall on each other when a whole number of pitches is
+// in cut, as in slotting with an even number of teeth.
 constexpr double kSameAngle = 1e-12;
 
 // (6-8) for one tooth, from s c, s^2 and c^2 (s = sin phi, c = cos phi), turned by the feed angle. Values or

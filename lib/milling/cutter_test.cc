@@ -24,7 +24,8 @@ Cutter cutter_with(int teeth, bool up, double immersion) {
 
 double engaged_length(const Cutter& cutter) {
   double sum = 0;
-  for (const auto& arc : engaged_arcs(cutter)) sum += (arc.to_rad - arc.from_rad) * (arc.last_tooth - arc.first_tooth);
+  for (const auto& arc : engaged_arcs(cutter))
+    sum += (arc.to_rad - arc.from_rad) * (arc.last_tooth - arc.first_tooth);
   return sum;
 }
 
@@ -80,7 +81,8 @@ TEST_CASE("exact means equal a quadrature of the coefficients over the arcs") {
       CHECK((mean * pitch - sum).norm() < 1e-12 * sum.norm());
       // The mean over a pitch is the mean of the means over its parts, teeth entering inside a part or not.
       Eigen::Matrix2d parts = Eigen::Matrix2d::Zero();
-      for (int i = 0; i < 7; ++i) parts += mean_directional_coefficients(cutter, i * pitch / 7, (i + 1) * pitch / 7) / 7;
+      for (int i = 0; i < 7; ++i)
+        parts += mean_directional_coefficients(cutter, i * pitch / 7, (i + 1) * pitch / 7) / 7;
       CHECK((parts - mean).norm() < 1e-12 * mean.norm());
     }
   }

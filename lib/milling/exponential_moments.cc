@@ -56,7 +56,8 @@ Eigen::VectorXd legendre_values(double x, Eigen::Index count) {
 }
 
 Eigen::VectorXcd exponential_moments(Complex z, double x, Eigen::Index count) {
-  const auto forward = std::abs(z.imag()) < 1 ? Eigen::Index{0} : static_cast<Eigen::Index>(std::abs(z.imag()));
+  const auto forward =
+      std::abs(z.imag()) < 1 ? Eigen::Index{0} : static_cast<Eigen::Index>(std::abs(z.imag()));
   const Eigen::Index tail = std::max(count, forward) + 24 + static_cast<Eigen::Index>(std::abs(z.real()));
   const Eigen::VectorXd p = legendre_values(x, tail + 2);
   const auto jump = [&](Eigen::Index j) { return p[j + 1] - p[j - 1]; };

@@ -57,12 +57,14 @@ CriticalMultiplier critical_multiplier(const PeriodMap& map, double depth_m) {
   }
   const Complex exponent = std::log(mu) / map.period_s();
   const double highest = structure.lambda.cwiseAbs().maxCoeff();
-  const auto harmonics = static_cast<int>(std::min(std::ceil(1.2 * highest * map.period_s() / kTwoPi), kMostHarmonics)) + 1;
+  const auto harmonics =
+      static_cast<int>(std::min(std::ceil(1.2 * highest * map.period_s() / kTwoPi), kMostHarmonics)) + 1;
   double best = -1;
   for (int k = -harmonics; k <= harmonics; ++k) {
     const Complex s = exponent + Complex(0, kTwoPi * k / map.period_s());
     Eigen::VectorXcd amplitude = Eigen::VectorXcd::Zero(d);
-    for (std::size_t i = 0; i < force.size(); ++i) amplitude += force[i] * std::exp(-s * map.samples()[i].time_s);
+    for (std::size_t i = 0; i < force.size(); ++i)
+      amplitude += force[i] * std::exp(-s * map.samples()[i].time_s);
     amplitude = structure.receptance(s) * amplitude;
     // A tie (k and its mirror image of a real multiplier) goes to the first: the frequency is the same.
     if (amplitude.norm() > best * (1 + 1e-9)) {

@@ -9,16 +9,16 @@
 
 namespace stablecut {
 
-/// A time in the tooth period at which the cutting force f = depth * drive * (u - u_delayed) is sampled, where u is
-/// what the cut senses there: the tip displacement, or a single tooth's chip thickness.
+/// A time in the tooth period at which the cutting force f = depth * drive * (u - u_delayed) is sampled,
+/// where u is what the cut senses there: the tip displacement, or a single tooth's chip thickness.
 struct ForceSample {
   double time_s = 0;
   double weight_s = 0;    ///< quadrature weight over the period
   Eigen::MatrixXd drive;  ///< [directions x sensed], N/m2
 };
 
-/// One tooth period at one speed. The state is the real modal state (Re q, Im q), then for each force sample what
-/// was sensed one period before, in units of the structure's displacement scale.
+/// One tooth period at one speed. The state is the real modal state (Re q, Im q), then for each force sample
+/// what was sensed one period before, in units of the structure's displacement scale.
 class PeriodMap {
  public:
   PeriodMap(const TipStructure& structure, double period_s) : structure_(structure), period_s_(period_s) {}
@@ -51,8 +51,8 @@ enum class Instability { kHopf, kFlip, kFold };
 struct CriticalMultiplier {
   std::complex<double> value;
   Instability kind = Instability::kHopf;
-  /// Among |arg(mu) / (2 pi T) + k / T| the one with the largest tip amplitude: the force of the Floquet mode is
-  /// expanded in harmonics, and each harmonic's amplitude is its receptance times its force. Hz.
+  /// Among |arg(mu) / (2 pi T) + k / T| the one with the largest tip amplitude: the force of the Floquet mode
+  /// is expanded in harmonics, and each harmonic's amplitude is its receptance times its force. Hz.
   double chatter_frequency_hz = 0;
 };
 CriticalMultiplier critical_multiplier(const PeriodMap& map, double depth_m);

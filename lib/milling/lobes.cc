@@ -14,13 +14,13 @@
 namespace stablecut {
 namespace {
 
-// Wanted change of the spectral radius when points are added, of max(1, radius). Far above the limit the radius is large
-// and nobody needs its last digits.
+// Wanted change of the spectral radius when points are added, of max(1, radius). Far above the limit the
+// radius is large and nobody needs its last digits.
 constexpr double kConverged = 1e-8;
-constexpr int kMostPoints = 240;   // per arc; then the error is what it is
-constexpr double kNearLimit = 2;       // a radius from which the limit is near
-constexpr double kMostHalfTurn = 1e4;  // rad in half an arc; more cannot be resolved by any number of points
-constexpr int kStagnation = 3;     // refinements without improvement, once below
+constexpr int kMostPoints = 240;        // per arc; then the error is what it is
+constexpr double kNearLimit = 2;        // a radius from which the limit is near
+constexpr double kMostHalfTurn = 1e4;   // rad in half an arc; more cannot be resolved by any number of points
+constexpr int kStagnation = 3;          // refinements without improvement, once below
 constexpr double kNearRounding = 1e-5;  // this: rounding is what is left
 // Steps on the way to the largest depth: a share of the depth reached, between these parts of the largest.
 constexpr double kRungShare = 0.06;
@@ -36,13 +36,14 @@ int first_guess(const TipStructure& structure, const Cutter& cutter, double revo
       structure.lambda.imag().cwiseAbs().maxCoeff() * longest / (2 * kTwoPi * revolutions_per_s);
   if (half_turn > kMostHalfTurn) {
     throw NoAnswer("at " + std::to_string(60 * revolutions_per_s) +
-                   " rpm the fastest mode turns too often in one cut to be followed: leave it out with --modes, or raise the speed");
+                   " rpm the fastest mode turns too often in one cut to be followed: leave it out with "
+                   "--modes, or raise the speed");
   }
   return static_cast<int>(std::min(6 + 1.1 * half_turn, static_cast<double>(kMostPoints)));
 }
 
-PreparedPeriod converged_spectral(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
-                                  double largest_depth_m) {
+PreparedPeriod converged_spectral(const TipStructure& structure, const Cutter& cutter,
+                                  double revolutions_per_s, double largest_depth_m) {
   const auto build = [&](int points) {
     return std::make_unique<SpectralMap>(structure, cutter, revolutions_per_s, points);
   };
@@ -53,7 +54,8 @@ PreparedPeriod converged_spectral(const TipStructure& structure, const Cutter& c
   for (int i = 0; i < 12 && spectral_radius(*map, depths[2]) > kNearLimit; ++i) depths[2] /= 2;
   const auto radii = [&](const PeriodMap& at) {
     std::array<double, 3> radius{};
-    std::transform(depths.begin(), depths.end(), radius.begin(), [&](double d) { return spectral_radius(at, d); });
+    std::transform(depths.begin(), depths.end(), radius.begin(),
+                   [&](double d) { return spectral_radius(at, d); });
     return radius;
   };
   auto radius = radii(*map);
@@ -148,8 +150,8 @@ std::optional<StabilityLimit> lowest_limit(const PeriodMap& map, double largest_
   if (!(largest_depth_m > 0)) return std::nullopt;
   const double tolerance = kDepthTolerance * largest_depth_m;
   const auto limit_between = [&](const Rung& stable, const Rung& unstable) {
-    const double depth = refine_crossing(map, stable.depth_m, stable.excess, unstable.depth_m, unstable.excess,
-                                         tolerance);
+    const double depth =
+        refine_crossing(map, stable.depth_m, stable.excess, unstable.depth_m, unstable.excess, tolerance);
     return StabilityLimit{depth, critical_multiplier(map, depth)};
   };
 
@@ -185,9 +187,9 @@ std::optional<StabilityLimit> lowest_limit(const PeriodMap& map, double largest_
 }
 
 StabilityChart stability_chart(const TipStructure& structure, const Cutter& cutter,
-                               const std::vector<double>& revolutions_per_s, const std::vector<double>& depths_m,
-                               const StabilityScheme& scheme, bool with_grid, int threads,
-                               const Progress& progress) {
+                               const std::vector<double>& revolutions_per_s,
+                               const std::vector<double>& depths_m, const StabilityScheme& scheme,
+                               bool with_grid, int threads, const Progress& progress) {
   const std::size_t speeds = revolutions_per_s.size();
   const auto depths = static_cast<Eigen::Index>(depths_m.size());
   StabilityChart chart;
@@ -208,8 +210,8 @@ StabilityChart stability_chart(const TipStructure& structure, const Cutter& cutt
           radii[i] = spectral_radius(*period.map, depths_m[static_cast<std::size_t>(i)]);
         }
         if (with_grid) chart.spectral_radius.col(static_cast<Eigen::Index>(s)) = radii;
-        chart.limit[s] = lowest_limit(*period.map, depths_m.back(),
-                                      with_grid ? depths_m : std::vector<double>{}, radii);
+        chart.limit[s] =
+            lowest_limit(*period.map, depths_m.back(), with_grid ? depths_m : std::vector<double>{}, radii);
       },
       progress);
 

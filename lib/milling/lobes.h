@@ -25,14 +25,14 @@ struct StabilityScheme {
 /// A period map at one speed with what is known of its error.
 struct PreparedPeriod {
   std::unique_ptr<PeriodMap> map;
-  /// Estimated error of the spectral radius, of max(1, radius): the change when points are added (spectral), or the distance to the
-  /// spectral method (semi-discretization), the worst of a few depths.
+  /// Estimated error of the spectral radius, of max(1, radius): the change when points are added (spectral),
+  /// or the distance to the spectral method (semi-discretization), the worst of a few depths.
   double error = 0;
   int resolution = 0;  ///< points per arc, or intervals
 };
 
-/// The map at one speed, good for depths up to `largest_depth_m`. The structure must outlive it. Throws NoAnswer when the
-/// speed is so low that the fastest mode cannot be followed through one cut.
+/// The map at one speed, good for depths up to `largest_depth_m`. The structure must outlive it. Throws
+/// NoAnswer when the speed is so low that the fastest mode cannot be followed through one cut.
 PreparedPeriod prepare_period(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
                               const StabilityScheme& scheme, double largest_depth_m);
 
@@ -42,16 +42,16 @@ struct StabilityLimit {
   CriticalMultiplier critical;
 };
 
-/// The lowest depth in (0, largest_depth_m] at which the cut loses stability, to 1e-9 of the largest depth, or
-/// nothing. Searched on a ladder of depths, `known_depths_m` (increasing, with their radii) among them; between
-/// rungs (a 16th of the depth apart, or a 64th to a 512th of the largest)
-/// a hump that may reach 1 is climbed. A hump narrower than a rung that shows at neither end is missed.
+/// The lowest depth in (0, largest_depth_m] at which the cut loses stability, to 1e-9 of the largest depth,
+/// or nothing. Searched on a ladder of depths, `known_depths_m` (increasing, with their radii) among them;
+/// between rungs (a 16th of the depth apart, or a 64th to a 512th of the largest) a hump that may reach 1 is
+/// climbed. A hump narrower than a rung that shows at neither end is missed.
 std::optional<StabilityLimit> lowest_limit(const PeriodMap& map, double largest_depth_m,
                                            const std::vector<double>& known_depths_m,
                                            const Eigen::VectorXd& known_radii);
 
 struct StabilityChart {
-  Eigen::MatrixXd spectral_radius;                   ///< [depths x speeds], of one tooth period; empty if unasked
+  Eigen::MatrixXd spectral_radius;  ///< [depths x speeds], of one tooth period; empty if unasked
   std::vector<std::optional<StabilityLimit>> limit;  ///< [speeds]
   double error = 0;                                  ///< largest estimated error of the spectral radius
   int least_resolution = 0;                          ///< points per arc or intervals, over the speeds
@@ -60,8 +60,8 @@ struct StabilityChart {
 
 /// Depths increasing, at least one. Without `with_grid` only the limit is computed.
 StabilityChart stability_chart(const TipStructure& structure, const Cutter& cutter,
-                               const std::vector<double>& revolutions_per_s, const std::vector<double>& depths_m,
-                               const StabilityScheme& scheme, bool with_grid, int threads,
-                               const Progress& progress = {});
+                               const std::vector<double>& revolutions_per_s,
+                               const std::vector<double>& depths_m, const StabilityScheme& scheme,
+                               bool with_grid, int threads, const Progress& progress = {});
 
 }  // namespace stablecut

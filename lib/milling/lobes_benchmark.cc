@@ -1,5 +1,5 @@
-// Speed of a stability chart, as ratios within one run: the converged method against the semi-discretization, each point
-// by Eigen's dense solver, on a structure of 15 coupled modes.
+// Speed of a stability chart, as ratios within one run: the converged method against the semi-discretization,
+// each point by Eigen's dense solver, on a structure of 15 coupled modes.
 
 #include <Eigen/Eigenvalues>
 #include <chrono>
@@ -39,19 +39,23 @@ int main() {
   const double grid = seconds([&] {
     const auto chart = stability_chart(structure, cutter, speeds, depths, {}, true, 1);
     sink += chart.spectral_radius.sum();
-    std::printf("200 x 100 grid and limit, 15 modes, spectral, one thread; estimated error %.1e, %d to %d points per arc\n",
-                chart.error, chart.least_resolution, chart.largest_resolution);
+    std::printf(
+        "200 x 100 grid and limit, 15 modes, spectral, one thread; estimated error %.1e, %d to %d points per "
+        "arc\n",
+        chart.error, chart.least_resolution, chart.largest_resolution);
   });
-  const double limit = seconds([&] {
-    sink += stability_chart(structure, cutter, speeds, depths, {}, false, 1).error;
-  });
+  const double limit =
+      seconds([&] { sink += stability_chart(structure, cutter, speeds, depths, {}, false, 1).error; });
   // The baseline on a sample of the grid's points.
   int points = 0;
   const double baseline = seconds([&] {
     for (std::size_t s = 0; s < speeds.size(); s += 25) {
       const SemiDiscretizationMap map(structure, cutter, speeds[s], 40);
       for (std::size_t i = 0; i < depths.size(); i += 10, ++points) {
-        sink += Eigen::EigenSolver<Eigen::MatrixXd>(map.monodromy(depths[i]), false).eigenvalues().cwiseAbs().maxCoeff();
+        sink += Eigen::EigenSolver<Eigen::MatrixXd>(map.monodromy(depths[i]), false)
+                    .eigenvalues()
+                    .cwiseAbs()
+                    .maxCoeff();
       }
     }
   });
@@ -71,7 +75,7 @@ int main() {
       sink += Eigen::EigenSolver<Eigen::MatrixXd>(matrix, false).eigenvalues().cwiseAbs().maxCoeff();
     }
   });
-  std::printf("eigenvalues of %ld rows: %.1f us, Eigen's Schur form %.1f us, ratio %.2f\n", static_cast<long>(matrix.rows()),
-              1e6 * own / kRepeats, 1e6 * eigen / kRepeats, eigen / own);
+  std::printf("eigenvalues of %ld rows: %.1f us, Eigen's Schur form %.1f us, ratio %.2f\n",
+              static_cast<long>(matrix.rows()), 1e6 * own / kRepeats, 1e6 * eigen / kRepeats, eigen / own);
   return sink == 0;
 }

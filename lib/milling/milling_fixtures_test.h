@@ -53,7 +53,8 @@ inline ModalModel coupled_modes(int count, unsigned seed) {
     };
     mode.psi_r = Eigen::VectorXcd::NullaryExpr(2, [&](Eigen::Index) { return complex(); });
     mode.psi_l = mode.psi_r / std::complex<double>(0, 2 * 0.3 * mode.pole().imag());
-    mode.psi_l += 0.2 * mode.psi_l.norm() * Eigen::VectorXcd::NullaryExpr(2, [&](Eigen::Index) { return complex(); });
+    mode.psi_l +=
+        0.2 * mode.psi_l.norm() * Eigen::VectorXcd::NullaryExpr(2, [&](Eigen::Index) { return complex(); });
     model.modes.push_back(mode);
   }
   return model;

@@ -23,7 +23,7 @@ struct Reflection {
 
 // Elementwise, so that wide vectors give the same bits.
 void reflect_rows(double* __restrict row0, double* __restrict row1, double* __restrict row2,
-                                         Eigen::Index count, const Reflection& t) {
+                  Eigen::Index count, const Reflection& t) {
   if (row2 != nullptr) {
     for (Eigen::Index j = 0; j < count; ++j) {
       const double sum = row0[j] + t.q * row1[j] + t.r * row2[j];
@@ -40,7 +40,8 @@ void reflect_rows(double* __restrict row0, double* __restrict row1, double* __re
   }
 }
 
-void reflect_columns(double* entry, Eigen::Index stride, Eigen::Index count, bool three, const Reflection& t) {
+void reflect_columns(double* entry, Eigen::Index stride, Eigen::Index count, bool three,
+                     const Reflection& t) {
   if (three) {
     for (Eigen::Index i = 0; i < count; ++i, entry += stride) {
       const double sum = t.x * entry[0] + t.y * entry[1] + t.z * entry[2];
@@ -182,7 +183,8 @@ class HessenbergQr {
 }  // namespace
 
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) {
-  if (!matrix.allFinite()) throw InvalidArgument("the period's map is not finite: expected modes and depths of a usual size");
+  if (!matrix.allFinite())
+    throw InvalidArgument("the period's map is not finite: expected modes and depths of a usual size");
   if (matrix.rows() == 1) return matrix.cast<std::complex<double>>();
   const RowMatrix hessenberg = Eigen::HessenbergDecomposition<Eigen::MatrixXd>(matrix).matrixH();
   Eigen::VectorXcd values;

@@ -9,16 +9,16 @@
 
 namespace stablecut {
 
-/// Only the tip displacement is delayed, and with w_a = w_b = 1/2 only the mean of its values at an interval's
-/// two ends; the textbook matrix of (m + 1) full states has the same nonzero eigenvalues.
+/// Only the tip displacement is delayed, and with w_a = w_b = 1/2 only the mean of its values at an
+/// interval's two ends; the textbook matrix of (m + 1) full states has the same nonzero eigenvalues.
 class SemiDiscretizationMap : public PeriodMap {
  public:
   /// `intervals` is m >= 1, from phase 0 on (tooth 1 at +Y). The structure must outlive the map.
   SemiDiscretizationMap(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
                         int intervals);
 
-  /// [2 modes + directions * intervals in cut, square]. The averages (6-29) are exact integrals; each interval's
-  /// map is a matrix exponential, free flight is exact.
+  /// [2 modes + directions * intervals in cut, square]. The averages (6-29) are exact integrals; each
+  /// interval's map is a matrix exponential, free flight is exact.
   Eigen::MatrixXd monodromy(double depth_m) const override;
 
  private:

@@ -54,9 +54,10 @@ SpectralMap::SpectralMap(const TipStructure& structure, const Cutter& cutter, do
   std::vector<TimedArc> arcs;
   for (const EngagedArc& arc : engaged_arcs(cutter)) {
     const double origin = arcs.empty() ? arc.from_rad : arcs.front().arc.from_rad;
-    arcs.push_back({arc, (arc.from_rad - origin) / angular_speed, (arc.to_rad - arc.from_rad) / angular_speed});
+    arcs.push_back(
+        {arc, (arc.from_rad - origin) / angular_speed, (arc.to_rad - arc.from_rad) / angular_speed});
   }
-  std::vector<Eigen::MatrixXd> sense;    // of each node, [sensed x directions]
+  std::vector<Eigen::MatrixXd> sense;     // of each node, [sensed x directions]
   std::vector<Eigen::Index> first = {0};  // of each node among all that is sensed
   for (const TimedArc& arc : arcs) {
     for (Eigen::Index i = 0; i < rule.node.size(); ++i) {

@@ -11,11 +11,11 @@ namespace stablecut {
 
 /// q' = Lambda q + Psi_L^T f, r = 2 Re(Psi_R q): one complex state for each pair of poles (6-20), (6-22).
 struct TipStructure {
-  Eigen::VectorXcd lambda;             ///< [modes], rad/s, positive imaginary parts
-  Eigen::MatrixXcd psi_r;              ///< [directions x modes], sqrt(s/kg)
-  Eigen::MatrixXcd psi_l;              ///< [directions x modes], sqrt(s/kg)
-  std::vector<Eigen::Index> axes;      ///< [directions] 0 for x, 1 for y: which directions can move
-  double displacement_scale_m = 1;     ///< a displacement of this size is comparable to a state of size 1
+  Eigen::VectorXcd lambda;          ///< [modes], rad/s, positive imaginary parts
+  Eigen::MatrixXcd psi_r;           ///< [directions x modes], sqrt(s/kg)
+  Eigen::MatrixXcd psi_l;           ///< [directions x modes], sqrt(s/kg)
+  std::vector<Eigen::Index> axes;   ///< [directions] 0 for x, 1 for y: which directions can move
+  double displacement_scale_m = 1;  ///< a displacement of this size is comparable to a state of size 1
 
   Eigen::Index modes() const { return lambda.size(); }
   Eigen::Index directions() const { return static_cast<Eigen::Index>(axes.size()); }
@@ -30,9 +30,9 @@ struct TipStructure {
   Eigen::MatrixXcd receptance(std::complex<double> s) const;
 };
 
-/// Directions x and y of the model. Other dofs are left out, and so is a mode that no force in x or y drives or that
-/// moves neither: the result may have no modes, and then nothing can chatter. Throws InvalidArgument when the model
-/// has neither direction.
+/// Directions x and y of the model. Other dofs are left out, and so is a mode that no force in x or y drives
+/// or that moves neither: the result may have no modes, and then nothing can chatter. Throws InvalidArgument
+/// when the model has neither direction.
 TipStructure tip_structure(const ModalModel& model);
 
 }  // namespace stablecut

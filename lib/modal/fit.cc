@@ -18,11 +18,14 @@ using Complex = std::complex<double>;
 constexpr Eigen::Index kLeastLines = 8;
 constexpr double kNoFit = 0.5;  // relative error from which on modes explain nothing
 
-FitData group_data(const FrequencyResponse& measured, const DirectionGroup& group, const std::vector<std::string>& dofs) {
+FitData group_data(const FrequencyResponse& measured, const DirectionGroup& group,
+                   const std::vector<std::string>& dofs) {
   FitData data;
   data.s = Complex(0, kTwoPi) * measured.frequency_hz.cast<Complex>();
   data.dofs = static_cast<Eigen::Index>(dofs.size());
-  const auto index = [&](const std::string& name) { return std::find(dofs.begin(), dofs.end(), name) - dofs.begin(); };
+  const auto index = [&](const std::string& name) {
+    return std::find(dofs.begin(), dofs.end(), name) - dofs.begin();
+  };
   for (const std::size_t e : group.entries) {
     const auto& entry = measured.entries[e];
     data.curves.push_back({index(entry.response), index(entry.reference), entry.h, {}});
@@ -60,8 +63,8 @@ std::vector<Eigen::VectorXd> known_variances(const FrequencyResponse& measured, 
   return result;
 }
 
-// Vector components that no curve of the group shows, because nothing was measured or nothing pushed in that direction:
-// set by reciprocity from a direction in which both was done, else zero. True when there was any.
+// Vector components that no curve of the group shows, because nothing was measured or nothing pushed in that
+// direction: set by reciprocity from a direction in which both was done, else zero. True when there was any.
 bool complete_by_reciprocity(const FitData& data, Mode& mode) {
   std::vector<bool> seen_r(static_cast<std::size_t>(data.dofs)), seen_l(seen_r.size());
   for (const Curve& curve : data.curves) {
@@ -92,7 +95,8 @@ std::string missing_entries(const FrequencyResponse& measured, const std::vector
   std::string list;
   for (const std::string& response : dofs) {
     for (const std::string& reference : dofs) {
-      if (measured.find(response, reference) == nullptr) list += (list.empty() ? "" : ", ") + response + reference;
+      if (measured.find(response, reference) == nullptr)
+        list += (list.empty() ? "" : ", ") + response + reference;
     }
   }
   return list;
@@ -110,8 +114,8 @@ std::optional<int> wanted_modes(const FitOptions& options, std::size_t groups, s
 ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options) {
   if (measured.quantity != Quantity::kReceptance) throw InvalidArgument("expected a receptance");
   if (measured.frequency_hz.size() < kLeastLines || measured.frequency_hz[0] < 0) {
-    throw InvalidArgument("expected at least " + std::to_string(kLeastLines) + " lines to fit modes to, not " +
-                          std::to_string(measured.frequency_hz.size()));
+    throw InvalidArgument("expected at least " + std::to_string(kLeastLines) +
+                          " lines to fit modes to, not " + std::to_string(measured.frequency_hz.size()));
   }
   const std::vector<DirectionGroup> groups = independent_groups(measured);
   if (groups.empty()) throw NoAnswer("all entries are zero: there is no mode to find");
@@ -127,11 +131,13 @@ ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options)
     const std::vector<std::string> directions = group_directions(measured, group, fit.model.dofs);
     std::vector<Eigen::VectorXd> variance = known_variances(measured, group);
     const bool given = !variance.empty();
-    ModeSearch part(group_data(measured, group, directions), std::move(variance), wanted_modes(options, groups.size(), g));
+    ModeSearch part(group_data(measured, group, directions), std::move(variance),
+                    wanted_modes(options, groups.size(), g));
     part.run(options.progress);
     fit.variance_given = fit.variance_given && !part.noise_estimated();
     if (given && part.noise_estimated()) {
-      fit.warnings.push_back("the residual is much larger than the given variance: the noise was estimated instead");
+      fit.warnings.push_back(
+          "the residual is much larger than the given variance: the noise was estimated instead");
     }
     fit.converged = fit.converged && part.result().converged;
     fit.limited_by_model = fit.limited_by_model || part.limited_by_model();
@@ -142,7 +148,8 @@ ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options)
       error_square += error.squaredNorm();
       square += curve.h.squaredNorm();
       fit.curves.push_back({directions[static_cast<std::size_t>(curve.response)],
-                            directions[static_cast<std::size_t>(curve.reference)], curve.h.isZero(0) ? 0.0 : error.norm() / curve.h.norm(),
+                            directions[static_cast<std::size_t>(curve.reference)],
+                            curve.h.isZero(0) ? 0.0 : error.norm() / curve.h.norm(),
                             error.cwiseAbs2().dot(curve.weight) / static_cast<double>(error.size())});
     }
     for (Mode mode : part.result().modes) {
@@ -171,7 +178,8 @@ ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options)
   }
   const std::string missing = missing_entries(measured, fit.model.dofs);
   if (by_reciprocity) {
-    fit.warnings.push_back("missing entries " + missing + ": what they would tell is set by reciprocity, or to zero");
+    fit.warnings.push_back("missing entries " + missing +
+                           ": what they would tell is set by reciprocity, or to zero");
   } else if (!missing.empty() && groups.size() > 1) {
     fit.warnings.push_back("missing entries " + missing + ": these directions are taken as uncoupled");
   }
@@ -180,8 +188,9 @@ ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options)
                    " % of the curves unexplained: is the low end of the band unusable (--band)?");
   }
   if (fit.limited_by_model) {
-    fit.warnings.push_back("the residual is larger than the noise and not made of modes: fitted by the strongest modes to " +
-                           std::to_string(std::lround(100 * fit.relative_error)) + " %");
+    fit.warnings.push_back(
+        "the residual is larger than the noise and not made of modes: fitted by the strongest modes to " +
+        std::to_string(std::lround(100 * fit.relative_error)) + " %");
   }
   if (fit.model.modes.empty()) throw NoAnswer("no mode stands out of the noise");
   return fit;

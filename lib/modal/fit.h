@@ -1,8 +1,9 @@
 // From measured receptances to a table of modes, without any guess by the user.
 //
-// Vector fitting from start poles spread over the band finds candidate poles; statistics decide which of them are modes
-// (a mode stays when taking it away costs more likelihood than its parameters are worth, a mode is added where the
-// residual asks for one); all are refined together by maximum likelihood with rank-1 residues.
+// Vector fitting from start poles spread over the band finds candidate poles; statistics decide which of them
+// are modes (a mode stays when taking it away costs more likelihood than its parameters are worth, a mode is
+// added where the residual asks for one); all are refined together by maximum likelihood with rank-1
+// residues.
 #pragma once
 
 #include <optional>
@@ -39,11 +40,11 @@ struct ModalFit {
   std::vector<std::string> warnings;
 };
 
-/// A vector component that no entry shows (no force in that direction, or no response) is set by reciprocity, with a
-/// warning. Directions that only missing entries could connect are taken as uncoupled, with a warning.
+/// A vector component that no entry shows (no force in that direction, or no response) is set by reciprocity,
+/// with a warning. Directions that only missing entries could connect are taken as uncoupled, with a warning.
 ///
-/// `measured` must be a receptance with at least 8 lines above 0 Hz. Throws InvalidArgument for data that cannot be
-/// fitted, NoAnswer when no mode stands out, or the modes leave half of the curves unexplained.
+/// `measured` must be a receptance with at least 8 lines above 0 Hz. Throws InvalidArgument for data that
+/// cannot be fitted, NoAnswer when no mode stands out, or the modes leave half of the curves unexplained.
 ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options = {});
 
 }  // namespace stablecut

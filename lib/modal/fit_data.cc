@@ -33,7 +33,8 @@ std::vector<DirectionGroup> independent_groups(const FrequencyResponse& frf) {
   }
   // Zeros between directions of one group are data.
   for (std::size_t e = 0; e < frf.entries.size(); ++e) {
-    const std::size_t from = label[index(frf.entries[e].response)], to = label[index(frf.entries[e].reference)];
+    const std::size_t from = label[index(frf.entries[e].response)],
+                      to = label[index(frf.entries[e].reference)];
     const auto found = std::find(group_label.begin(), group_label.end(), from);
     if (!frf.entries[e].h.isZero(0) || from != to || found == group_label.end()) continue;
     groups[static_cast<std::size_t>(found - group_label.begin())].entries.push_back(e);

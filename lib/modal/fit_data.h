@@ -27,7 +27,8 @@ struct FitData {
   double values() const { return 2.0 * static_cast<double>(lines()) * static_cast<double>(curves.size()); }
 };
 
-/// Directions that only exact zeros (or nothing) connect are independent structures: each group is fitted alone.
+/// Directions that only exact zeros (or nothing) connect are independent structures: each group is fitted
+/// alone.
 struct DirectionGroup {
   std::vector<std::size_t> entries;  ///< of the frequency response: all between directions of the group
 };

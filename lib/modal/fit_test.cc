@@ -28,10 +28,10 @@ double rebuild_error(const ModalFit& fit, const FrequencyResponse& measured) {
 // Close pairs and heavy damping, where linear methods lose modes.
 ModalModel hard_case() {
   ModalModel model = fixtures::close_pair();
-  model.modes.push_back(
-      fixtures::mode(648, 0.01, {Complex(1, 0.2), Complex(-0.5, 0.1)}, {Complex(2e-4, 0), Complex(1e-4, -1e-4)}));
-  model.modes.push_back(
-      fixtures::mode(905, 0.2, {Complex(0.8, 0.1), Complex(-0.9, 0.3)}, {Complex(5e-4, 2e-4), Complex(-4e-4, 0)}));
+  model.modes.push_back(fixtures::mode(648, 0.01, {Complex(1, 0.2), Complex(-0.5, 0.1)},
+                                       {Complex(2e-4, 0), Complex(1e-4, -1e-4)}));
+  model.modes.push_back(fixtures::mode(905, 0.2, {Complex(0.8, 0.1), Complex(-0.9, 0.3)},
+                                       {Complex(5e-4, 2e-4), Complex(-4e-4, 0)}));
   return model;
 }
 
@@ -57,7 +57,8 @@ TEST_CASE("the modes are found without a hint, with and without a known variance
         REQUIRE(mode.deviation);
         // 12 values in 6 runs: four standard deviations are passed once in 200.
         CHECK(std::abs(mode.frequency_hz - truth.modes[k].frequency_hz) < 4.5 * mode.deviation->frequency_hz);
-        CHECK(std::abs(mode.damping_ratio - truth.modes[k].damping_ratio) < 4.5 * mode.deviation->damping_ratio);
+        CHECK(std::abs(mode.damping_ratio - truth.modes[k].damping_ratio) <
+              4.5 * mode.deviation->damping_ratio);
       }
     }
   }

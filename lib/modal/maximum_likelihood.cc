@@ -18,14 +18,17 @@ using Complex = std::complex<double>;
 // Bounds: of -Re lambda / Im lambda, and of Im lambda in units of the highest line.
 constexpr double kLeastRatio = 1e-6, kLargestRatio = 3;
 constexpr double kLeastRate = 1e-5, kLargestRate = 20;
-// What holds for a mode outside the band when the data do not say: -Re / Im, and the deviations of the logarithms.
+// What holds for a mode outside the band when the data do not say: -Re / Im, and the deviations of the
+// logarithms.
 constexpr double kResidualDamping = 0.05;
 constexpr double kResidualDampingDeviation = 0.5;
 constexpr double kResidualPlaceDeviation = 1;
-constexpr double kRidge = 1e-13;  // of the diagonal, so that a mode without residue does not stop the factorization
+constexpr double kRidge =
+    1e-13;  // of the diagonal, so that a mode without residue does not stop the factorization
 
 // How the real parameter vector describes the modes:
-//   log(-Re lambda / Im lambda), log(Im lambda), then Re and Im of psi_r without its pivot (which stays 1), of psi_l.
+//   log(-Re lambda / Im lambda), log(Im lambda), then Re and Im of psi_r without its pivot (which stays 1),
+//   of psi_l.
 class Parametrization {
  public:
   Parametrization(const std::vector<Mode>& modes, const FitData& data) : dofs_(data.dofs) {
@@ -143,7 +146,8 @@ class Likelihood {
 
  private:
   void add_curve(const PoleValues& values, const Curve& curve, const std::vector<Mode>& modes,
-                 const Eigen::VectorXcd& residue, const Eigen::VectorXcd& error, NormalEquations& result) const {
+                 const Eigen::VectorXcd& residue, const Eigen::VectorXcd& error,
+                 NormalEquations& result) const {
     const Eigen::VectorXcd weighted = curve.weight.cwiseProduct(error);
     const Eigen::VectorXcd first = values.phi.adjoint() * weighted;
     const Eigen::VectorXcd first_conj = values.phi_conj.adjoint() * weighted;
@@ -151,9 +155,11 @@ class Likelihood {
     for (Eigen::Index k = 0; k < parameters_.modes(); ++k) {
       const Mode& mode = modes[static_cast<std::size_t>(k)];
       directions.push_back({parameters_.pole_at(k), {k, false, 2}, residue[k]});
-      directions.push_back({parameters_.left_at(k, curve.reference), {k, false, 1}, mode.psi_r[curve.response]});
+      directions.push_back(
+          {parameters_.left_at(k, curve.reference), {k, false, 1}, mode.psi_r[curve.response]});
       if (curve.response != parameters_.pivot(k)) {
-        directions.push_back({parameters_.right_at(k, curve.response), {k, false, 1}, mode.psi_l[curve.reference]});
+        directions.push_back(
+            {parameters_.right_at(k, curve.response), {k, false, 1}, mode.psi_l[curve.reference]});
       }
     }
     for (const Direction& d : directions) {
@@ -169,13 +175,15 @@ class Likelihood {
     }
     const PoleSums sums(values, curve.weight, true);
     for (std::size_t a = 0; a < directions.size(); ++a) {
-      for (std::size_t b = a; b < directions.size(); ++b) add_pair(sums, directions[a], directions[b], result.matrix);
+      for (std::size_t b = a; b < directions.size(); ++b)
+        add_pair(sums, directions[a], directions[b], result.matrix);
     }
   }
 
-  // The 2x2 block of inner products of a's and b's columns; the columns of a direction are t g + conj(t) g' and the
-  // same with i t.
-  static void add_pair(const PoleSums& sums, const Direction& a, const Direction& b, Eigen::MatrixXd& matrix) {
+  // The 2x2 block of inner products of a's and b's columns; the columns of a direction are t g + conj(t) g'
+  // and the same with i t.
+  static void add_pair(const PoleSums& sums, const Direction& a, const Direction& b,
+                       Eigen::MatrixXd& matrix) {
     const auto mirrored = [](PoleSums::Function g) {
       g.conjugate = true;
       return g;
@@ -187,11 +195,12 @@ class Likelihood {
     const Complex i(0, 1);
     // t -> i t multiplies t by i and conj(t) by -i.
     const auto entry = [&](Complex fa, Complex fb) {
-      return (std::conj(fa) * fb * same + fa * std::conj(fb) * same_conj + std::conj(fa) * std::conj(fb) * cross +
-              fa * fb * cross_conj)
+      return (std::conj(fa) * fb * same + fa * std::conj(fb) * same_conj +
+              std::conj(fa) * std::conj(fb) * cross + fa * fb * cross_conj)
           .real();
     };
-    const Eigen::Matrix2d block = (Eigen::Matrix2d() << entry(1, 1), entry(1, i), entry(i, 1), entry(i, i)).finished();
+    const Eigen::Matrix2d block =
+        (Eigen::Matrix2d() << entry(1, 1), entry(1, i), entry(i, 1), entry(i, i)).finished();
     matrix.block<2, 2>(a.at, b.at) += block;
     if (a.at != b.at) matrix.block<2, 2>(b.at, a.at) += block.transpose();
   }
@@ -208,8 +217,8 @@ class Likelihood {
     }
   }
 
-  // Outside the band the data may not tell damping and distance: then a common damping and a place near the band
-  // hold, so that the residual mode cannot chatter by itself. Where the data tell, they outweigh this.
+  // Outside the band the data may not tell damping and distance: then a common damping and a place near the
+  // band hold, so that the residual mode cannot chatter by itself. Where the data tell, they outweigh this.
   void add_priors(const double* x, bool with_matrix, NormalEquations& result) const {
     const double lo = data_.s[0].imag(), hi = data_.s[data_.lines() - 1].imag();
     const auto add = [&](Eigen::Index at, double expected, double deviation) {
@@ -224,7 +233,8 @@ class Likelihood {
       const Eigen::Index at = parameters_.pole_at(k);
       add(at, std::log(kResidualDamping), kResidualDampingDeviation);
       const bool above = x[at + 1] > std::log(hi);
-      add(at + 1, above ? std::log(1.5 * hi) : std::log(std::max(lo / 1.5, 1e-3 * hi)), kResidualPlaceDeviation);
+      add(at + 1, above ? std::log(1.5 * hi) : std::log(std::max(lo / 1.5, 1e-3 * hi)),
+          kResidualPlaceDeviation);
     }
   }
 
@@ -236,17 +246,19 @@ Eigen::LLT<Eigen::MatrixXd> factorized(Eigen::MatrixXd matrix) {
   const double largest = matrix.diagonal().maxCoeff();
   for (double ridge = kRidge;; ridge *= 100) {
     Eigen::MatrixXd damped = matrix;
-    damped.diagonal() += ridge * (matrix.diagonal() + Eigen::VectorXd::Constant(matrix.rows(), 1e-6 * largest));
+    damped.diagonal() +=
+        ridge * (matrix.diagonal() + Eigen::VectorXd::Constant(matrix.rows(), 1e-6 * largest));
     Eigen::LLT<Eigen::MatrixXd> factor(damped);
     if (factor.info() == Eigen::Success || ridge > 1) return factor;
   }
 }
 
-// Least squares depend on the long residual r and its Jacobian J only through J^T J, J^T r and |r|^2. So the solver
-// gets a short equivalent: with U^T U = J^T J the residual (U^-T J^T r, rest) and the Jacobian (U, 0).
+// Least squares depend on the long residual r and its Jacobian J only through J^T J, J^T r and |r|^2. So the
+// solver gets a short equivalent: with U^T U = J^T J the residual (U^-T J^T r, rest) and the Jacobian (U, 0).
 class CompressedCost : public ceres::CostFunction {
  public:
-  explicit CompressedCost(const Likelihood& likelihood, Eigen::Index size) : likelihood_(likelihood), size_(size) {
+  explicit CompressedCost(const Likelihood& likelihood, Eigen::Index size)
+      : likelihood_(likelihood), size_(size) {
     set_num_residuals(static_cast<int>(size + 1));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(size));
   }
@@ -260,8 +272,8 @@ class CompressedCost : public ceres::CostFunction {
     if (with_jacobian) {
       const auto factor = factorized(normal.matrix);
       residual.head(size_) = factor.matrixL().solve(normal.gradient);
-      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> jacobian(jacobians[0], size_ + 1,
-                                                                                                size_);
+      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> jacobian(
+          jacobians[0], size_ + 1, size_);
       jacobian.setZero();
       jacobian.topRows(size_) = Eigen::MatrixXd(factor.matrixU());
     }
@@ -274,8 +286,8 @@ class CompressedCost : public ceres::CostFunction {
   Eigen::Index size_;
 };
 
-void add_statistics(const Parametrization& parameters, const Eigen::VectorXd& x, const NormalEquations& normal,
-                    RefinedModes& result) {
+void add_statistics(const Parametrization& parameters, const Eigen::VectorXd& x,
+                    const NormalEquations& normal, RefinedModes& result) {
   const Eigen::Index n = parameters.modes();
   const Eigen::MatrixXd covariance =
       factorized(normal.matrix).solve(Eigen::MatrixXd::Identity(parameters.size(), parameters.size()));
@@ -284,7 +296,8 @@ void add_statistics(const Parametrization& parameters, const Eigen::VectorXd& x,
     const Eigen::Index first = parameters.left_at(k, 0);
     const Eigen::Index count = parameters.pole_at(k) + parameters.per_mode() - first;
     const Eigen::VectorXd left = x.segment(first, count);
-    result.removal_loss[k] = left.dot(Eigen::MatrixXd(covariance.block(first, first, count, count)).llt().solve(left));
+    result.removal_loss[k] =
+        left.dot(Eigen::MatrixXd(covariance.block(first, first, count, count)).llt().solve(left));
     // The weights are 1 / E|error|^2 of the complex value, so each part has half of that variance.
     const Complex lambda = parameters.pole(x.data(), k);
     const Eigen::Matrix2d pole = covariance.block<2, 2>(parameters.pole_at(k), parameters.pole_at(k)) / 2;

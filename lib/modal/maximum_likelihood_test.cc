@@ -26,12 +26,13 @@ TEST_CASE("from a start nearby, exact data give the modes back") {
   for (std::size_t k = 0; k < start.size(); ++k) {
     CHECK(refined.modes[k].frequency_hz == Approx(truth.modes[k].frequency_hz).epsilon(1e-9));
     CHECK(refined.modes[k].damping_ratio == Approx(truth.modes[k].damping_ratio).epsilon(1e-8));
-    CHECK((refined.modes[k].residue() - truth.modes[k].residue()).norm() < 1e-7 * truth.modes[k].residue().norm());
+    CHECK((refined.modes[k].residue() - truth.modes[k].residue()).norm() <
+          1e-7 * truth.modes[k].residue().norm());
   }
 }
 
-// The bound from a Jacobian by central differences, with the redundant complex scale of each mode taken out by fixing
-// psi_r's first component.
+// The bound from a Jacobian by central differences, with the redundant complex scale of each mode taken out
+// by fixing psi_r's first component.
 TEST_CASE("standard deviations are the Cramer-Rao bound") {
   const ModalModel truth = fixtures::close_pair();
   const FitData data = fixtures::data_of(truth, 1e-2);
@@ -41,10 +42,14 @@ TEST_CASE("standard deviations are the Cramer-Rao bound") {
     Mode& mode = modes[static_cast<std::size_t>(parameter / 8)];
     const Eigen::Index which = parameter % 8;
     const Complex direction = which % 2 == 0 ? Complex(step, 0) : Complex(0, step);
-    if (which == 0) mode.frequency_hz *= 1 + step;
-    else if (which == 1) mode.damping_ratio *= 1 + step;
-    else if (which < 4) mode.psi_r[1] += direction * mode.psi_r.norm();
-    else mode.psi_l[which < 6 ? 0 : 1] += direction * mode.psi_l.norm();
+    if (which == 0)
+      mode.frequency_hz *= 1 + step;
+    else if (which == 1)
+      mode.damping_ratio *= 1 + step;
+    else if (which < 4)
+      mode.psi_r[1] += direction * mode.psi_r.norm();
+    else
+      mode.psi_l[which < 6 ? 0 : 1] += direction * mode.psi_l.norm();
     return modes;
   };
   const Eigen::Index values = 2 * data.lines() * static_cast<Eigen::Index>(data.curves.size());
@@ -68,7 +73,8 @@ TEST_CASE("standard deviations are the Cramer-Rao bound") {
     const Mode& mode = truth.modes[static_cast<std::size_t>(k)];
     const auto& deviation = at_truth.modes[static_cast<std::size_t>(k)].deviation;
     REQUIRE(deviation);
-    CHECK(deviation->frequency_hz == Approx(mode.frequency_hz * std::sqrt(covariance(8 * k, 8 * k))).epsilon(1e-4));
+    CHECK(deviation->frequency_hz ==
+          Approx(mode.frequency_hz * std::sqrt(covariance(8 * k, 8 * k))).epsilon(1e-4));
     CHECK(deviation->damping_ratio ==
           Approx(mode.damping_ratio * std::sqrt(covariance(8 * k + 1, 8 * k + 1))).epsilon(1e-4));
   }

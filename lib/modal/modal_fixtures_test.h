@@ -22,10 +22,11 @@ inline ModalModel close_pair() {
   using Complex = std::complex<double>;
   ModalModel model;
   model.dofs = {"x", "y"};
-  model.modes = {mode(120, 0.01, {Complex(1, 0.1), Complex(-0.4, 0.2)}, {Complex(0.9e-4, 1e-5), Complex(-2e-5, 3e-5)}),
-                 mode(121.8, 0.012, {Complex(0.3, -0.2), Complex(1, 0)}, {Complex(2e-5, 1e-5), Complex(1e-4, -2e-5)}),
-                 mode(260, 0.12, {Complex(1, 0), Complex(0.7, 0.6)}, {Complex(3e-4, -1e-4), Complex(2e-4, 1e-4)}),
-                 mode(640, 0.008, {Complex(0.2, 0.9), Complex(1, -0.3)}, {Complex(1e-4, 1e-4), Complex(-2e-4, 0)})};
+  model.modes = {
+      mode(120, 0.01, {Complex(1, 0.1), Complex(-0.4, 0.2)}, {Complex(0.9e-4, 1e-5), Complex(-2e-5, 3e-5)}),
+      mode(121.8, 0.012, {Complex(0.3, -0.2), Complex(1, 0)}, {Complex(2e-5, 1e-5), Complex(1e-4, -2e-5)}),
+      mode(260, 0.12, {Complex(1, 0), Complex(0.7, 0.6)}, {Complex(3e-4, -1e-4), Complex(2e-4, 1e-4)}),
+      mode(640, 0.008, {Complex(0.2, 0.9), Complex(1, -0.3)}, {Complex(1e-4, 1e-4), Complex(-2e-4, 0)})};
   return model;
 }
 

@@ -19,32 +19,33 @@ using Complex = std::complex<double>;
 constexpr Eigen::Index kStartPairs = 30;
 constexpr int kRelocations = 12;
 constexpr int kRelocationsAfterPruning = 4;
-constexpr int kTrialSteps = 12;       // of a refinement that only has to tell whether a mode pays
-constexpr int kStartSteps = 24;      // of the first refinement, of many candidates
+constexpr int kTrialSteps = 12;  // of a refinement that only has to tell whether a mode pays
+constexpr int kStartSteps = 24;  // of the first refinement, of many candidates
 constexpr int kFinalSteps = 60;
 constexpr int kRescues = 3;
 constexpr double kOutsideMargin = 2;  // how far outside the band a mode is looked for
 constexpr double kBeyondDoubt = 100;  // times the price
-// Weights never claim less noise than these shares of the value, and than a part of that of the curve's RMS. Computed
-// receptances have no noise at all, and rounding must not decide the number of modes; the coarse floor finds it, the
-// fine one then takes what the numbers hold.
+// Weights never claim less noise than these shares of the value, and than a part of that of the curve's RMS.
+// Computed receptances have no noise at all, and rounding must not decide the number of modes; the coarse
+// floor finds it, the fine one then takes what the numbers hold.
 constexpr double kCoarseFloor = 1e-4;
 constexpr double kFineFloor = 1e-7;
 constexpr double kRmsShare = 0.01;
 // Misfit over noise from which on the noise is not what limits the fit.
 constexpr double kModelErrorFactor = 1.5;
-// Where the model cannot reach the noise (a nonlinear joint, hysteretic damping, a leaking window), the residual is not
-// made of modes. Above this relative error a mode has to take away the lesser share of the residual to be one, below
-// it the larger.
+// Where the model cannot reach the noise (a nonlinear joint, hysteretic damping, a leaking window), the
+// residual is not made of modes. Above this relative error a mode has to take away the lesser share of the
+// residual to be one, below it the larger.
 constexpr double kModelErrorFloor = 0.045;
 constexpr double kLesserShare = 0.05;
 constexpr double kLargerShare = 0.3;
-// A pole on a line and narrower than this many line spacings moves that line alone: a disturbed line, not a mode.
+// A pole on a line and narrower than this many line spacings moves that line alone: a disturbed line, not a
+// mode.
 constexpr double kLeastHalfWidth = 0.02;
 
 // How much of the weighted residual one pole takes away, and its residue.
-double single_pole_gain(const PoleValues& values, const Eigen::VectorXd& weight, const Eigen::VectorXcd& residual,
-                               Complex& residue) {
+double single_pole_gain(const PoleValues& values, const Eigen::VectorXd& weight,
+                        const Eigen::VectorXcd& residual, Complex& residue) {
   Eigen::Matrix2d gram = Eigen::Matrix2d::Zero();
   Eigen::Vector2d projection = Eigen::Vector2d::Zero();
   for (Eigen::Index i = 0; i < residual.size(); ++i) {
@@ -71,7 +72,8 @@ ModeSearch::ModeSearch(FitData data, std::vector<Eigen::VectorXd> variance, std:
       wanted_modes_(wanted_modes),
       floor_(kCoarseFloor) {
   if (estimate_noise_) {
-    for (const Curve& curve : data_.curves) variance_.push_back(estimated_variance(curve.h, curve.h.cwiseAbs()));
+    for (const Curve& curve : data_.curves)
+      variance_.push_back(estimated_variance(curve.h, curve.h.cwiseAbs()));
   }
   set_weights();
 }
@@ -115,7 +117,8 @@ void ModeSearch::set_weights() {
     const double rms = own_rms > 0 ? own_rms : largest_rms;
     const double of_rms = limited_by_model_ ? kModelErrorFloor : kRmsShare * floor_;
     curve.weight =
-        (variance_[e].array() + floor_ * floor_ * curve.h.array().abs2() + std::pow(of_rms * rms, 2)).inverse();
+        (variance_[e].array() + floor_ * floor_ * curve.h.array().abs2() + std::pow(of_rms * rms, 2))
+            .inverse();
   }
 }
 
@@ -174,8 +177,9 @@ double ModeSearch::relative_error(const std::vector<Mode>& modes) const {
 
 // ---- the price of a mode ----
 
-// Chi-square that a mode must take away: half its real parameters times the log of the number of values (Schwarz). A
-// residual that is larger than the noise, or smooth over lines, holds less information than its length.
+// Chi-square that a mode must take away: half its real parameters times the log of the number of values
+// (Schwarz). A residual that is larger than the noise, or smooth over lines, holds less information than its
+// length.
 double ModeSearch::price(const RefinedModes& without) const {
   const double parameters = 2.0 + 2.0 * static_cast<double>(2 * data_.dofs - 1);
   const double information = (parameters / 2) * std::log(data_.values());
@@ -207,9 +211,8 @@ void ModeSearch::find_modes() {
     std::sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
       return linear.removal_loss[a] < linear.removal_loss[b];
     });
-    const auto worthless = std::count_if(order.begin(), order.end(), [&](Eigen::Index k) {
-      return linear.removal_loss[k] < least;
-    });
+    const auto worthless = std::count_if(order.begin(), order.end(),
+                                         [&](Eigen::Index k) { return linear.removal_loss[k] < least; });
     if (worthless == 0) break;
     const auto dropped = std::clamp<std::ptrdiff_t>(worthless / 3, 1, worthless);
     std::vector<Eigen::Index> kept(order.begin() + dropped, order.end());
@@ -254,7 +257,8 @@ void ModeSearch::remove_modes() {
     std::vector<std::size_t> order(current_.modes.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return std::pair(!is_too_narrow(current_.modes[a]), loss(a)) < std::pair(!is_too_narrow(current_.modes[b]), loss(b));
+      return std::pair(!is_too_narrow(current_.modes[a]), loss(a)) <
+             std::pair(!is_too_narrow(current_.modes[b]), loss(b));
     });
     bool removed = false;
     for (std::size_t attempt = 0; attempt < std::min<std::size_t>(3, order.size()) && !removed; ++attempt) {
@@ -293,7 +297,8 @@ bool ModeSearch::add_mode() {
   RefinedModes trial = refine_modes(data_, more, 2 * kTrialSteps);
   const double least_gain = wanted_modes_ ? 0.0 : price(current_);
   if (!(current_.chi_square - trial.chi_square > least_gain)) return false;
-  if (std::any_of(trial.modes.begin(), trial.modes.end(), [&](const Mode& mode) { return is_too_narrow(mode); })) {
+  if (std::any_of(trial.modes.begin(), trial.modes.end(),
+                  [&](const Mode& mode) { return is_too_narrow(mode); })) {
     return false;
   }
   current_ = std::move(trial);
@@ -302,7 +307,8 @@ bool ModeSearch::add_mode() {
 
 Mode ModeSearch::best_addition() const {
   std::vector<Eigen::VectorXcd> residual;
-  for (const Curve& curve : data_.curves) residual.push_back(curve.h - curve_of(current_.modes, curve, data_.s));
+  for (const Curve& curve : data_.curves)
+    residual.push_back(curve.h - curve_of(current_.modes, curve, data_.s));
   const double hi = data_.s[data_.lines() - 1].imag();
   const double spacing = line_spacing();
   const double lo = std::max(data_.s[0].imag(), spacing);
@@ -317,7 +323,8 @@ Mode ModeSearch::best_addition() const {
       Eigen::RowVectorXcd residue(static_cast<Eigen::Index>(data_.curves.size()));
       double gain = 0;
       for (std::size_t e = 0; e < data_.curves.size(); ++e) {
-        gain += single_pole_gain(values, data_.curves[e].weight, residual[e], residue[static_cast<Eigen::Index>(e)]);
+        gain += single_pole_gain(values, data_.curves[e].weight, residual[e],
+                                 residue[static_cast<Eigen::Index>(e)]);
       }
       if (gain > best_gain) {
         best_gain = gain;

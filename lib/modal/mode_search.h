@@ -12,12 +12,13 @@
 
 namespace stablecut {
 
-/// Candidates by vector fitting, then a balance of likelihood: a mode stays when taking it away costs more than its
-/// parameters are worth, and is added where the residual asks for one.
+/// Candidates by vector fitting, then a balance of likelihood: a mode stays when taking it away costs more
+/// than its parameters are worth, and is added where the residual asks for one.
 class ModeSearch {
  public:
-  /// `variance` [curves][lines] of the noise; empty: estimated from the curves and from what the model leaves. The
-  /// weights of `data` are set here. With `wanted_modes` that many are kept, whatever they are worth.
+  /// `variance` [curves][lines] of the noise; empty: estimated from the curves and from what the model
+  /// leaves. The weights of `data` are set here. With `wanted_modes` that many are kept, whatever they are
+  /// worth.
   ModeSearch(FitData data, std::vector<Eigen::VectorXd> variance, std::optional<int> wanted_modes);
 
   void run(const Progress& progress);
@@ -26,7 +27,8 @@ class ModeSearch {
   const RefinedModes& result() const { return current_; }
   /// The residual is larger than the noise, and not made of modes.
   bool limited_by_model() const { return limited_by_model_; }
-  /// The weights come from an estimate of the noise: none was given, or the residual is larger than it by far.
+  /// The weights come from an estimate of the noise: none was given, or the residual is larger than it by
+  /// far.
   bool noise_estimated() const { return estimate_noise_; }
   /// Number of complex values fitted.
   double complex_values() const { return data_.values() / 2; }

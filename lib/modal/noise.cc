@@ -11,7 +11,8 @@ constexpr Eigen::Index kHalfWindow = 24;
 // The square of a complex Gaussian is exponential: its median is log 2 times its mean.
 const double kMedianOfExponential = std::log(2.0);
 
-// Median of `square` over a window around each line, as the mean that it stands for. Square i belongs to line i + 2.
+// Median of `square` over a window around each line, as the mean that it stands for. Square i belongs to line
+// i + 2.
 Eigen::VectorXd windowed_mean(const Eigen::VectorXd& square) {
   const Eigen::Index lines = square.size() + 4;
   const Eigen::Index half = std::min(kHalfWindow, square.size() / 2);
@@ -40,9 +41,11 @@ Eigen::VectorXd estimated_variance(const Eigen::VectorXcd& values, const Eigen::
   if (lines < 6) return Eigen::VectorXd::Zero(lines);
   // Sum of squares of (1, -4, 6, -4, 1) is 70.
   const Eigen::Index count = lines - 4;
-  const Eigen::VectorXd square = (values.head(count) - 4.0 * values.segment(1, count) + 6.0 * values.segment(2, count) -
-                                  4.0 * values.segment(3, count) + values.tail(count))
-                                     .cwiseAbs2() / 70;
+  const Eigen::VectorXd square =
+      (values.head(count) - 4.0 * values.segment(1, count) + 6.0 * values.segment(2, count) -
+       4.0 * values.segment(3, count) + values.tail(count))
+          .cwiseAbs2() /
+      70;
   const Eigen::VectorXd plain = windowed_mean(square);
   const Eigen::VectorXd size_square = size.cwiseAbs2().array().max(1e-300);
   const Eigen::VectorXd following =

@@ -10,7 +10,8 @@ namespace {
 Eigen::VectorXcd white(Eigen::Index lines, double sigma) {
   std::mt19937_64 generator(9);
   std::normal_distribution<double> normal(0, sigma / std::sqrt(2.0));
-  return Eigen::VectorXcd::NullaryExpr(lines, [&] { return std::complex<double>(normal(generator), normal(generator)); });
+  return Eigen::VectorXcd::NullaryExpr(
+      lines, [&] { return std::complex<double>(normal(generator), normal(generator)); });
 }
 
 }  // namespace
@@ -41,7 +42,8 @@ TEST_CASE("white residuals have correlation length 1, smooth ones more") {
 TEST_CASE("noise that follows a sharp peak is told from a floor") {
   const Eigen::VectorXcd noise = white(2000, 1);
   Eigen::VectorXcd signal(2000);
-  for (Eigen::Index i = 0; i < 2000; ++i) signal[i] = 1.0 / std::complex<double>(0.003, (static_cast<double>(i) - 1000) / 1000);
+  for (Eigen::Index i = 0; i < 2000; ++i)
+    signal[i] = 1.0 / std::complex<double>(0.003, (static_cast<double>(i) - 1000) / 1000);
   const Eigen::VectorXd size = signal.cwiseAbs();
   const Eigen::VectorXcd following = 0.01 * noise.cwiseProduct(size.cast<std::complex<double>>());
   const double level = 0.01 * size.maxCoeff();

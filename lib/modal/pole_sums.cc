@@ -19,7 +19,8 @@ PoleValues::PoleValues(const Eigen::VectorXcd& s, const Eigen::VectorXcd& poles)
   }
 }
 
-PoleSums::PoleSums(const PoleValues& values, const Eigen::VectorXd& weight, bool with_squares) : values_(values) {
+PoleSums::PoleSums(const PoleValues& values, const Eigen::VectorXd& weight, bool with_squares)
+    : values_(values) {
   first_ = values.phi.transpose() * weight;
   first_conj_ = values.phi_conj.transpose() * weight;
   if (!with_squares) return;

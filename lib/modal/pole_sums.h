@@ -2,8 +2,8 @@
 //
 // With phi_a(w) = 1 / (i w - a) and real weights, partial fractions give
 //   sum w conj(phi_a) phi_b = -(S(b) + conj S(a)) / (b + conj a),   S(a) = sum w / (i w - a),
-// and its derivatives in b and conj a give the same sums with phi^2. All poles lie in the left half plane, so that
-// b + conj a is never zero. Gram matrices of n poles cost n sums over the lines instead of n^2.
+// and its derivatives in b and conj a give the same sums with phi^2. All poles lie in the left half plane, so
+// that b + conj a is never zero. Gram matrices of n poles cost n sums over the lines instead of n^2.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,13 +15,13 @@ namespace stablecut {
 struct PoleValues {
   PoleValues(const Eigen::VectorXcd& s, const Eigen::VectorXcd& poles);
 
-  Eigen::VectorXcd pole;       ///< [poles] rad/s, negative real parts
-  Eigen::MatrixXcd phi;        ///< [lines x poles]
-  Eigen::MatrixXcd phi_conj;   ///< [lines x poles], of the conjugate poles
+  Eigen::VectorXcd pole;      ///< [poles] rad/s, negative real parts
+  Eigen::MatrixXcd phi;       ///< [lines x poles]
+  Eigen::MatrixXcd phi_conj;  ///< [lines x poles], of the conjugate poles
 };
 
-/// Weighted inner products sum w conj(g_a) g_b over the lines, where g is phi or phi^2 (order 1 or 2) of a pole or of
-/// its conjugate.
+/// Weighted inner products sum w conj(g_a) g_b over the lines, where g is phi or phi^2 (order 1 or 2) of a
+/// pole or of its conjugate.
 class PoleSums {
  public:
   /// `weight` [lines], not negative. Order 2 needs `with_squares`.

@@ -14,8 +14,9 @@ TEST_CASE("inner products by partial fractions equal the sums over the lines") {
     weight[i] = 1 + 0.5 * std::sin(0.1 * static_cast<double>(i)) + 1e-3 * static_cast<double>(i * i);
   }
   // A close pair, a heavily damped pole, and poles outside the band.
-  const Eigen::VectorXcd poles = (Eigen::VectorXcd(5) << Complex(-4, 300), Complex(-4.2, 301), Complex(-120, 500),
-                                  Complex(-1, 3), Complex(-40, 2500)).finished();
+  const Eigen::VectorXcd poles = (Eigen::VectorXcd(5) << Complex(-4, 300), Complex(-4.2, 301),
+                                  Complex(-120, 500), Complex(-1, 3), Complex(-40, 2500))
+                                     .finished();
   const PoleValues values(s, poles);
   const PoleSums sums(values, weight, true);
   const auto column = [&](const PoleSums::Function& g) -> Eigen::VectorXcd {
@@ -25,7 +26,8 @@ TEST_CASE("inner products by partial fractions equal the sums over the lines") {
   for (Eigen::Index a = 0; a < 5; ++a) {
     for (Eigen::Index b = 0; b < 5; ++b) {
       for (int bits = 0; bits < 16; ++bits) {
-        const PoleSums::Function ga{a, (bits & 1) != 0, bits & 2 ? 2 : 1}, gb{b, (bits & 4) != 0, bits & 8 ? 2 : 1};
+        const PoleSums::Function ga{a, (bits & 1) != 0, bits & 2 ? 2 : 1},
+            gb{b, (bits & 4) != 0, bits & 8 ? 2 : 1};
         const Eigen::VectorXcd ca = column(ga), cb = column(gb);
         const Complex expected = ca.dot(weight.cwiseProduct(cb));
         const double scale = std::sqrt(ca.cwiseAbs2().dot(weight) * cb.cwiseAbs2().dot(weight));

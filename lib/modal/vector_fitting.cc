@@ -17,8 +17,9 @@ constexpr double kRidge = 1e-12;          // of each diagonal entry of a Gram ma
 constexpr double kStartDamping = 0.01;    // of starting poles
 constexpr double kRealPoleDamping = 0.7;  // what a real pole becomes
 
-// Real basis of a conjugate pair: column 2k is phi + phi', column 2k + 1 is i phi - i phi', so that the coefficients are
-// the real and imaginary part of the residue. Functions of the weights c (complex allowed): sum c conj(x) y.
+// Real basis of a conjugate pair: column 2k is phi + phi', column 2k + 1 is i phi - i phi', so that the
+// coefficients are the real and imaginary part of the residue. Functions of the weights c (complex allowed):
+// sum c conj(x) y.
 Eigen::MatrixXd real_gram(const Eigen::MatrixXcd& complex_gram) {
   const Eigen::Index n = complex_gram.rows() / 2;  // [phi; phi'] blocks
   Eigen::MatrixXd gram(2 * n, 2 * n);
@@ -138,7 +139,8 @@ Eigen::VectorXcd relocate_poles(const FitData& data, const Eigen::VectorXcd& pol
     cross.col(2 * n) = real_projection(values.phi.adjoint() * wh, values.phi_conj.adjoint() * wh);
     Eigen::MatrixXd own(2 * n + 1, 2 * n + 1);  // sum w |h|^2 conj(x_a) x_b
     own.topLeftCorner(2 * n, 2 * n) = real_gram(weighted_gram(values, whh));
-    own.topRightCorner(2 * n, 1) = real_projection(values.phi.adjoint() * whh, values.phi_conj.adjoint() * whh);
+    own.topRightCorner(2 * n, 1) =
+        real_projection(values.phi.adjoint() * whh, values.phi_conj.adjoint() * whh);
     own.bottomLeftCorner(1, 2 * n) = own.topRightCorner(2 * n, 1).transpose();
     own(2 * n, 2 * n) = whh.real().sum();
     const Eigen::MatrixXd complement = own - cross.transpose() * ScaledSystem(gram).solve(cross);
@@ -173,7 +175,8 @@ Eigen::VectorXcd relocate_poles(const FitData& data, const Eigen::VectorXcd& pol
   }
   std::sort(real_roots.begin(), real_roots.end());
   for (std::size_t i = 0; i + 1 < real_roots.size(); i += 2) {
-    const double omega = std::max(std::sqrt(real_roots[i] * real_roots[i + 1]), 1e-6 * std::abs(data.s[data.lines() - 1]));
+    const double omega =
+        std::max(std::sqrt(real_roots[i] * real_roots[i + 1]), 1e-6 * std::abs(data.s[data.lines() - 1]));
     result.push_back(omega * Complex(-kRealPoleDamping, std::sqrt(1 - kRealPoleDamping * kRealPoleDamping)));
   }
   const double least_decay = 1e-6 * std::abs(data.s[data.lines() - 1]);
@@ -193,7 +196,8 @@ LinearResidues linear_residues(const FitData& data, const Eigen::VectorXcd& pole
     const Eigen::VectorXcd wh = curve.weight.cwiseProduct(curve.h);
     const ScaledSystem system(real_gram(weighted_gram(values, curve.weight.cast<Complex>())));
     const Eigen::MatrixXd inverse = system.solve(Eigen::MatrixXd::Identity(2 * n, 2 * n));
-    const Eigen::VectorXd coefficient = system.solve(real_projection(values.phi.adjoint() * wh, values.phi_conj.adjoint() * wh));
+    const Eigen::VectorXd coefficient =
+        system.solve(real_projection(values.phi.adjoint() * wh, values.phi_conj.adjoint() * wh));
     Eigen::VectorXcd residue(n);
     for (Eigen::Index k = 0; k < n; ++k) {
       residue[k] = {coefficient[2 * k], coefficient[2 * k + 1]};
