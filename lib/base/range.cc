@@ -31,7 +31,7 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 std::vector<double> Range::values() const {
   std::vector<double> result(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
-    result[static_cast<std::size_t>(i)] = i == count - 1 ? to : from + (to - from) * i / (count - 1);
+    result[static_cast<std::size_t>(i)] = at(i);
   }
   return result;
 }
@@ -61,6 +61,18 @@ std::optional<Range> parse_band(std::string_view text) {
   const auto to = parse_number(parts[1]);
   if (!from || !to || !(*from < *to)) return std::nullopt;
   return Range{*from, *to, 2};
+}
+
+std::optional<std::array<double, 3>> parse_vector(std::string_view text) {
+  const auto parts = split(text, ',');
+  if (parts.size() != 3) return std::nullopt;
+  std::array<double, 3> vector{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto number = parse_number(parts[i]);
+    if (!number) return std::nullopt;
+    vector[i] = *number;
+  }
+  return vector;
 }
 
 std::optional<std::vector<int>> parse_index_list(std::string_view text) {

@@ -1,6 +1,7 @@
-// Text forms that the tools' options share: numbers, FROM:TO:COUNT, index lists.
+// Text forms that the tools' options share: numbers, FROM:TO:COUNT, X,Y,Z, index lists.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -13,8 +14,11 @@ struct Range {
   double to = 0;
   int count = 1;
 
-  /// The values, increasing; the last is exactly `to`.
+  /// Value i, increasing; the last is exactly `to`.
+  double at(int i) const { return i + 1 == count ? to : from + (to - from) * i / (count - 1); }
   std::vector<double> values() const;
+  double step() const { return count > 1 ? (to - from) / (count - 1) : 0; }
+  bool is_point() const { return from == to; }
 };
 
 /// A finite decimal number that fills the whole text, or nothing. The decimal mark is a point in every
@@ -29,6 +33,9 @@ std::optional<Range> parse_range(std::string_view text);
 
 /// `LO:HI`, finite, LO < HI; else nothing. The count of the result is 2.
 std::optional<Range> parse_band(std::string_view text);
+
+/// `X,Y,Z`, three finite numbers; else nothing.
+std::optional<std::array<double, 3>> parse_vector(std::string_view text);
 
 /// `1-7,14-15`: 1-based indices, increasing and without repeats in the result; else nothing.
 std::optional<std::vector<int>> parse_index_list(std::string_view text);

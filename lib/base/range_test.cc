@@ -43,3 +43,9 @@ TEST_CASE("a band has two increasing ends") {
   CHECK_FALSE(parse_band("4500:400"));
   CHECK_FALSE(parse_band("400"));
 }
+
+TEST_CASE("a vector has three numbers") {
+  CHECK(parse_vector("400,0,-400") == std::array<double, 3>{400, 0, -400});
+  for (const char* text : {"", "1,2", "1,2,3,4", "1,2,x", "1,,3", "1 2 3", "1,2,inf"})
+    CHECK_FALSE(parse_vector(text));
+}

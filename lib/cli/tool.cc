@@ -57,6 +57,11 @@ CLI::Option* add_band_option(CLI::App& app, const std::string& name, std::option
                            parse_band);
 }
 
+CLI::Option* add_vector_option(CLI::App& app, const std::string& name,
+                               std::optional<std::array<double, 3>>& value, const std::string& description) {
+  return add_parsed_option(app, name, value, description, "X,Y,Z", "X,Y,Z, three numbers", parse_vector);
+}
+
 CLI::Option* add_number_option(CLI::App& app, const std::string& name, std::optional<double>& value,
                                const std::string& description, const std::string& expected,
                                bool (*inside)(double)) {

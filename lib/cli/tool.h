@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -83,6 +84,9 @@ CLI::Option* add_band_option(CLI::App& app, const std::string& name, std::option
 CLI::Option* add_number_option(CLI::App& app, const std::string& name, std::optional<double>& value,
                                const std::string& description, const std::string& expected,
                                bool (*inside)(double));
+/// An option whose text must be X,Y,Z.
+CLI::Option* add_vector_option(CLI::App& app, const std::string& name,
+                               std::optional<std::array<double, 3>>& value, const std::string& description);
 /// An option whose text must be a whole number from `least` on.
 CLI::Option* add_integer_option(CLI::App& app, const std::string& name, std::optional<int>& value, int least,
                                 const std::string& description);

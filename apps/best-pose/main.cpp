@@ -1,0 +1,317 @@
+// best-pose: joint stiffness and a plane in, the stiffest pose out; a map of the plane; or a verdict on given
+// poses.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "cli/exit_status.h"
+#include "cli/progress_bar.h"
+#include "cli/tool.h"
+#include "document/error.h"
+#include "document/joint_stiffness.h"
+#include "document/pose.h"
+#include "document/pose_list.h"
+#include "document/robot.h"
+
+namespace stablecut {
+namespace {
+
+constexpr double kDefaultStepMm = 50;
+constexpr double kDefaultLimitMarginDeg = 2;
+constexpr double kDefaultSingularityMargin = 0.01;
+constexpr Range kDefaultRedundancyDeg{-180, 175, 72};
+constexpr int kDefaultAlternatives = 5;
+constexpr int kMostPoints = 4'000'000;
+
+class BestPose : public cli::Tool {
+ public:
+  BestPose()
+      : Tool("best-pose",
+             "The stiffest joint angles of a milling robot over a plane, the redundancy about the tool axis "
+             "and all "
+             "branches, from its joint stiffness.",
+             "pose") {}
+
+ private:
+  using Vector = std::optional<std::array<double, 3>>;
+
+  void setup(CLI::App& app) override {
+    const auto not_negative = [](double value) { return value >= 0; };
+    const auto any = [](double) { return true; };
+    not_in_provenance(
+        app.add_option("--robot", robot_path_, "Robot document: kinematics, flange, tool (required)")
+            ->type_name("FILE"));
+    cli::add_number_option(app, "--height", height_mm_, "The plane: z = HEIGHT, mm, base frame", "a number",
+                           any);
+    cli::add_vector_option(app, "--plane-origin", plane_origin_, "Or any plane: its origin, mm, base frame");
+    cli::add_vector_option(app, "--plane-x", plane_x_, "Direction of its x axis (default: 1,0,0)");
+    cli::add_vector_option(app, "--plane-y", plane_y_, "Direction of its y axis (default: 0,1,0)");
+    cli::add_range_option(app, "--x", x_,
+                          "Tool point along the plane's x axis, mm (default: what the robot reaches)");
+    cli::add_range_option(app, "--y", y_,
+                          "Tool point along the plane's y axis, mm (default: what the robot reaches)");
+    cli::add_range_option(
+        app, "--redundancy", redundancy_,
+        "Turn about the tool axis, deg; 0 puts the tool's x axis nearest the base's x axis (default: "
+        "-180:175:72)");
+    cli::add_vector_option(app, "--tool-axis", tool_axis_,
+                           "Direction of the tool axis, base frame (default: 0,0,-1)");
+    cli::add_choice_option(app, "--index", index_, "combined|weakest|axial|deflection",
+                           "What counts as stiff (default: combined)");
+    cli::add_vector_option(app, "--force", force_, "Force on the tool point, N");
+    cli::add_choice_option(app, "--force-frame", force_frame_, "base|tool",
+                           "Frame of --force (default: base)");
+    cli::add_number_option(app, "--limit-margin", limit_margin_deg_,
+                           "To keep from joint limits, deg (default: 2)", "a number not below 0",
+                           not_negative);
+    cli::add_number_option(app, "--singularity-margin", singularity_margin_,
+                           "Least singular value of the Jacobian to keep, lengths in m (default: 0.01)",
+                           "a number not below 0", not_negative);
+    cli::add_integer_option(app, "--alternatives", alternatives_, 0,
+                            "How many runners-up to list (default: 5)");
+    app.add_option_function<std::vector<std::string>>(
+           "--assume", [this](const std::vector<std::string>& texts) { assume(texts); },
+           "Stiffness of a joint that was not identified, N m/rad, as in A1=6.9e6; may be given again")
+        ->type_name("JOINT=K")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    not_in_provenance(
+        app.add_option("--map", map_path_, "Also write the best of the samples at each point of the plane")
+            ->type_name("FILE"));
+    not_in_provenance(
+        app.add_option("--evaluate", evaluate_path_, "Score the poses of a pose list instead of a search")
+            ->type_name("FILE"));
+  }
+
+  void run() override {
+    if (robot_path_.empty()) throw usage("--robot: missing: expected a robot document");
+    const bool evaluate = !evaluate_path_.empty();
+    if (evaluate && !map_path_.empty()) throw usage("--map: expected a search, not --evaluate");
+    if (!evaluate && !height_mm_ && !plane_origin_)
+      throw usage("--height: missing: expected the height of the plane, mm");
+    const StiffnessTask stiffness = stiffness_task();
+    const PlaneDocument plane = plane_document();
+    const cli::Input robot_input = read_input(robot_path_, true);
+    const Robot robot = robot_from_json(robot_input.document, robot_input.source);
+    const cli::Input input = read_main_input(true);
+    const JointStiffness joints =
+        complete(joint_stiffness_from_json(input.document, input.source), input.source, robot);
+    PoseDocument document;
+    document.task = stiffness;
+    document.covariance = joints.compliance_covariance;
+    JointAngles compliance;
+    for (int j = 0; j < kJoints; ++j) compliance[j] = 1 / *joints.stiffness[static_cast<std::size_t>(j)];
+    if (evaluate)
+      score_poses(robot, compliance, document);
+    else
+      search(robot, robot_input.source, compliance, plane, document);
+  }
+
+  static cli::Failure usage(const std::string& text) { return {cli::ExitStatus::kUsage, text}; }
+
+  void assume(const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) {
+      const auto equals = text.find('=');
+      const auto value = equals == std::string::npos ? std::nullopt : parse_number(text.substr(equals + 1));
+      if (!value || !(*value > 0) || equals == 0) {
+        throw CLI::ValidationError("--assume", text + ": expected JOINT=K with a stiffness above 0 N m/rad");
+      }
+      assumed_.emplace_back(text.substr(0, equals), *value);
+    }
+  }
+
+  StiffnessTask stiffness_task() const {
+    StiffnessTask task;
+    if (index_ == "weakest") task.index = StiffnessIndex::kWeakest;
+    if (index_ == "axial") task.index = StiffnessIndex::kAxial;
+    if (index_ == "deflection") task.index = StiffnessIndex::kDeflection;
+    if (force_) {
+      task.force_n = Eigen::Vector3d(force_->data());
+      if (task.force_n->norm() == 0) throw usage("--force: 0,0,0: expected a force that is not zero");
+    }
+    if (task.index == StiffnessIndex::kDeflection && !force_) {
+      throw usage("--force: missing: expected a force for the index deflection");
+    }
+    task.force_in_tool = force_frame_ == "tool";
+    return task;
+  }
+
+  static Eigen::Vector3d direction(const Vector& value, const Eigen::Vector3d& otherwise,
+                                   const std::string& name) {
+    if (!value) return otherwise;
+    const Eigen::Vector3d v(value->data());
+    if (!(v.norm() > 0)) throw usage(name + ": 0,0,0: expected a direction");
+    return v.normalized();
+  }
+
+  PlaneDocument plane_document() const {
+    PlaneDocument document;
+    document.height_mm = height_mm_;
+    if (height_mm_) {
+      if (plane_origin_ || plane_x_ || plane_y_)
+        throw usage("--height: expected either a height or --plane-origin");
+      document.plane.origin = {0, 0, metres_from_mm(*height_mm_)};
+      return document;
+    }
+    if (plane_origin_) document.plane.origin = Eigen::Vector3d(plane_origin_->data()) * 1e-3;
+    document.plane.x_axis = direction(plane_x_, Eigen::Vector3d::UnitX(), "--plane-x");
+    document.plane.y_axis = direction(plane_y_, Eigen::Vector3d::UnitY(), "--plane-y");
+    if (std::abs(document.plane.x_axis.dot(document.plane.y_axis)) > 1e-6) {
+      throw usage("--plane-y: expected a direction square to --plane-x");
+    }
+    document.plane.y_axis -= document.plane.x_axis.dot(document.plane.y_axis) * document.plane.x_axis;
+    document.plane.y_axis.normalize();
+    return document;
+  }
+
+  // Every joint needs a stiffness: the document's, or an assumed one where it has none.
+  JointStiffness complete(JointStiffness joints, const Source& source, const Robot& robot) const {
+    for (const auto& [name, value] : assumed_) {
+      const auto joint =
+          std::find_if(robot.joints.begin(), robot.joints.end(),
+                       [&name = name](const Joint& candidate) { return candidate.name == name; });
+      if (joint == robot.joints.end()) {
+        std::string names;
+        for (const Joint& known : robot.joints) names += (names.empty() ? "" : ", ") + known.name;
+        throw usage("--assume: " + name + ": expected one of " + names);
+      }
+      auto& stiffness = joints.stiffness[static_cast<std::size_t>(joint - robot.joints.begin())];
+      if (stiffness)
+        throw usage("--assume: " + name + ": " + source.name +
+                    " has a stiffness for it: expected a joint without");
+      stiffness = value;
+    }
+    std::string missing, option;
+    std::size_t first = kJoints;
+    for (std::size_t j = 0; j < kJoints; ++j) {
+      if (joints.stiffness[j]) continue;
+      if (first == kJoints) first = j;
+      missing += (missing.empty() ? "" : ", ") + robot.joints[j].name;
+      option += " --assume " + robot.joints[j].name + "=K";
+    }
+    if (first < kJoints) {
+      std::string text =
+          source.name + ": /stiffness_n_m_per_rad/" + std::to_string(first) + ": null: " + missing +
+          " not identified: expected a stiffness for every joint; give what you know of it with" + option;
+      if (missing == robot.joints[kJoints - 1].name && tool_alignment(robot).point_on_axis) {
+        text += " (any K: the tool point lies on this joint's axis, so it does not change the answer)";
+      }
+      throw NoAnswer(text);
+    }
+    return joints;
+  }
+
+  Range span_mm(const std::optional<Range>& given, const Range& reach) const {
+    if (given) return {metres_from_mm(given->from), metres_from_mm(given->to), given->count};
+    const double from = std::floor(mm_from_metres(reach.from) / kDefaultStepMm) * kDefaultStepMm;
+    const double to = std::ceil(mm_from_metres(reach.to) / kDefaultStepMm) * kDefaultStepMm;
+    return {metres_from_mm(from), metres_from_mm(to),
+            1 + static_cast<int>(std::lround((to - from) / kDefaultStepMm))};
+  }
+
+  PoseTask pose_task(const Robot& robot, const JointAngles& compliance, const PlaneDocument& plane,
+                     const StiffnessTask& stiffness) const {
+    PoseTask task;
+    task.plane = plane.plane;
+    task.tool_axis = direction(tool_axis_, task.tool_axis, "--tool-axis");
+    task.stiffness = stiffness;
+    task.joint_compliance = compliance;
+    task.limit_margin_rad = radians_from_degrees(limit_margin_deg_.value_or(kDefaultLimitMarginDeg));
+    task.singularity_margin = singularity_margin_.value_or(kDefaultSingularityMargin);
+    const auto reach = plane_reach(robot, task.plane, task.tool_axis);
+    if (!reach && (!x_ || !y_)) {
+      throw NoAnswer("no reachable pose: nothing of the plane is within the arm's reach with this tool axis");
+    }
+    task.x = span_mm(x_, reach ? reach->x : Range{});
+    task.y = span_mm(y_, reach ? reach->y : Range{});
+    if (static_cast<double>(task.x.count) * task.y.count > kMostPoints) {
+      throw usage("--x, --y: expected at most " + std::to_string(kMostPoints) + " points");
+    }
+    const Range degrees = redundancy_.value_or(kDefaultRedundancyDeg);
+    if (degrees.to - degrees.from > 360) throw usage("--redundancy: expected at most a full turn");
+    task.redundancy = {radians_from_degrees(degrees.from), radians_from_degrees(degrees.to), degrees.count};
+    return task;
+  }
+
+  void search(const Robot& robot, const Source& robot_source, const JointAngles& compliance,
+              const PlaneDocument& plane, PoseDocument& document) {
+    if (const auto bad = unsupported_geometry(robot)) {
+      throw DataError(robot_source.name, "/joints/" + std::to_string(bad->joint) + "/" + bad->field,
+                      Json(bad->value).dump(),
+                      std::string("expected ") + bad->expected +
+                          ": a search needs its inverse kinematics (--evaluate does not)");
+    }
+    const PoseTask task = pose_task(robot, compliance, plane, document.task);
+    document.plane = plane;
+    std::optional<PlaneScan> scan;
+    if (!map_path_.empty()) {
+      cli::ProgressBar bar("best-pose: map", !quiet());
+      scan = scan_plane(robot, task, threads(), [&](double share) { bar.show(share); });
+    }
+    {
+      cli::ProgressBar bar("best-pose: plane", !quiet());
+      document.search = search_poses(
+          robot, task, alternatives_.value_or(kDefaultAlternatives), threads(),
+          [&](double share) { bar.show(share); }, scan ? &*scan : nullptr);
+    }
+    if (!document.search.redundancy_matters && task.redundancy.count > 1) {
+      warn("--redundancy: the tool is coaxial with joint " + robot.joints.back().name +
+           ", which alone turns it: no redundancy angle can change the index " + index_name());
+    }
+    const auto report = [&](const FoundPose& found) {
+      document.reports.push_back(
+          report_pose(robot, found.angles, document.task, compliance, document.covariance));
+    };
+    report(document.search.best);
+    for (const FoundPose& found : document.search.alternatives) report(found);
+    sweep_redundancy(robot, task, document);
+    write_document(main_output(), pose_to_json(document, robot));
+    if (scan) write_document(map_path_, pose_map_to_json(pose_map(robot, *scan), task, plane));
+  }
+
+  // The score over the redundancy at the best point.
+  static void sweep_redundancy(const Robot& robot, const PoseTask& task, PoseDocument& document) {
+    for (int i = 0; i < task.redundancy.count; ++i) {
+      PoseTask one = task;
+      one.redundancy = {task.redundancy.at(i), task.redundancy.at(i), 1};
+      const PoseScanner scanner(robot, one);
+      const auto best = scanner.scan(document.search.best.at.x, document.search.best.at.y).best();
+      document.sweep.redundancy_rad.push_back(one.redundancy.from);
+      document.sweep.score.push_back(best ? std::optional(scanner.evaluate(best->at)->score) : std::nullopt);
+    }
+  }
+
+  void score_poses(const Robot& robot, const JointAngles& compliance, PoseDocument& document) {
+    const cli::Input input = read_input(evaluate_path_, true);
+    for (const JointAngles& angles : pose_list_from_json(input.document, input.source)) {
+      document.evaluated.push_back(
+          report_pose(robot, angles, document.task, compliance, document.covariance));
+      const PoseReport& report = document.evaluated.back();
+      if (report.limit_margin_rad < 0) {
+        char text[80];
+        std::snprintf(text, sizeof text, "%.3f degrees outside the joint limits",
+                      degrees_from_radians(-report.limit_margin_rad));
+        warn(input.source.name + ": /poses/" + std::to_string(document.evaluated.size() - 1) +
+             "/joints_deg: " + text);
+      }
+    }
+    write_document(main_output(), evaluation_to_json(document));
+  }
+
+  std::string index_name() const { return index_.empty() ? "combined" : index_; }
+
+  std::string robot_path_, index_, force_frame_ = "base", map_path_, evaluate_path_;
+  std::optional<double> height_mm_, limit_margin_deg_, singularity_margin_;
+  Vector plane_origin_, plane_x_, plane_y_, tool_axis_, force_;
+  std::optional<Range> x_, y_, redundancy_;
+  std::optional<int> alternatives_;
+  std::vector<std::pair<std::string, double>> assumed_;
+};
+
+}  // namespace
+}  // namespace stablecut
+
+int main(int argc, char** argv) { return stablecut::BestPose().main(argc, argv); }

@@ -1,0 +1,172 @@
+// joint-stiffness: loads and deflections at robot poses in, joint stiffness out; or the poses and loads to
+// measure.
+
+#include <array>
+#include <optional>
+
+#include "base/error.h"
+#include "cli/exit_status.h"
+#include "cli/tool.h"
+#include "document/joint_stiffness.h"
+#include "document/load_samples.h"
+#include "document/measurement_plan.h"
+#include "document/pose_list.h"
+#include "document/robot.h"
+
+namespace stablecut {
+namespace {
+
+// What a plan loads the tool point with when nothing else is said, N: a weight that a workshop has, along
+// each axis.
+constexpr std::array<std::array<double, 3>, 3> kPlanLoads = {{{600, 0, 0}, {0, 600, 0}, {0, 0, -600}}};
+constexpr double kPlanStdMm = 0.005;
+
+class JointStiffnessTool : public cli::Tool {
+ public:
+  JointStiffnessTool()
+      : Tool("joint-stiffness",
+             "Joint stiffness of a robot from loads and deflections at measured poses, with what the loads "
+             "cannot see "
+             "said so.",
+             "joint-stiffness") {}
+
+ private:
+  void setup(CLI::App& app) override {
+    not_in_provenance(
+        app.add_option("--robot", robot_path_, "Robot document: kinematics, flange, tool (required)")
+            ->type_name("FILE"));
+    cli::add_choice_option(app, "--from", from_, "json|csv", "Form of the input (default: by content)");
+    cli::add_choice_option(app, "--loss", loss_, "squared|huber",
+                           "squared (default), or huber: samples far off count less and are named");
+    app.add_option_function<std::string>(
+           "--components",
+           [this](const std::string& text) {
+             components_ = {};
+             for (const char c : text) {
+               const auto d = std::string("xyz").find(c);
+               if (d == std::string::npos || components_[d]) {
+                 throw CLI::ValidationError("--components", text + ": expected some of x, y, z, each once");
+               }
+               components_[d] = true;
+             }
+           },
+           "Use only these components of the deflection (default: xyz)")
+        ->type_name("xyz");
+    cli::add_integer_option(app, "--plan", plan_, 1,
+                            "Read a pose list and choose the N poses and loads that identify best");
+    app.add_option_function<std::vector<std::string>>(
+           "--load",
+           [this](const std::vector<std::string>& texts) {
+             for (const std::string& text : texts) {
+               const auto load = parse_vector(text);
+               if (!load) throw CLI::ValidationError("--load", text + ": expected X,Y,Z, three numbers");
+               loads_.push_back(*load);
+             }
+           },
+           "A force that a plan may use at the tool point, N, base frame; may be given again (default: 600 "
+           "along x, y, -z)")
+        ->type_name("X,Y,Z")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    const auto positive = [](double value) { return value > 0; };
+    cli::add_number_option(app, "--std-mm", std_mm_,
+                           "Deviation of a measured component, for a plan (default: 0.005)",
+                           "a number above 0", positive);
+    not_in_provenance(app.add_option("--expected", expected_path_,
+                                     "Expected joint stiffness, for a plan's deviations in N m/rad")
+                          ->type_name("FILE"));
+  }
+
+  void run() override {
+    if (robot_path_.empty())
+      throw cli::Failure(cli::ExitStatus::kUsage, "--robot: missing: expected a robot document");
+    if (!plan_ && (!loads_.empty() || std_mm_ || !expected_path_.empty())) {
+      throw cli::Failure(cli::ExitStatus::kUsage, "--load, --std-mm, --expected: expected with --plan only");
+    }
+    const cli::Input robot_input = read_input(robot_path_, true);
+    const Robot robot = robot_from_json(robot_input.document, robot_input.source);
+    if (plan_)
+      plan(robot);
+    else
+      identify(robot);
+  }
+
+  void identify(const Robot& robot) {
+    const cli::Input input = read_main_input(from_ == "json");
+    const bool csv = from_ == "csv" || (from_.empty() && input.document.is_null());
+    const LoadSamplesDocument samples =
+        csv ? load_samples_from_csv(input.source, robot, components_)
+            : load_samples_from_json(input.document, input.source, robot, components_);
+    IdentificationDocument document;
+    document.options = {loss_ == "huber", components_};
+    document.places = samples.places;
+    try {
+      document.identification = identify_stiffness(robot, samples.samples, document.options);
+    } catch (const NoAnswer& answer) {
+      throw NoAnswer(input.source.name + ": " + answer.what());
+    }
+    const Identification& found = document.identification;
+    for (int j = 0; j < kJoints; ++j) {
+      if (found.identified(j)) continue;
+      warn("joint " + robot.joints[static_cast<std::size_t>(j)].name +
+           " is not identified: " + verdict_text(found.verdict[static_cast<std::size_t>(j)]));
+    }
+    if (!found.deviations_known) {
+      warn(input.source.name + ": as many unknowns as measured values: no deviations and no intervals");
+    }
+    if (found.chi_square_tail < 1e-3) {
+      warn(input.source.name +
+           ": the residuals are too large for the stated deviations (chi-square per degree of freedom " +
+           Json(*found.chi_square_per_dof).dump() + "): the deviations of the result were scaled up");
+    }
+    for (const Outlier& outlier : found.outliers) {
+      char text[160];
+      std::snprintf(
+          text, sizeof text, "%.1f um from the model, %.1f deviations%s", outlier.residual_m * 1e6,
+          outlier.deviations,
+          document.options.huber ? "" : ": an outlier? (--loss huber makes such samples count less)");
+      warn(input.source.name + ": " + samples.places[static_cast<std::size_t>(outlier.sample)] + ": " + text);
+    }
+    write_document(main_output(), identification_to_json(document, robot));
+  }
+
+  void plan(const Robot& robot) {
+    PlanDocument document;
+    if (!expected_path_.empty()) {
+      const cli::Input expected = read_input(expected_path_, true);
+      document.expected = joint_stiffness_from_json(expected.document, expected.source);
+    }
+    const cli::Input input = read_main_input(true);
+    const std::vector<JointAngles> poses = pose_list_from_json(input.document, input.source);
+    if (loads_.empty()) loads_.assign(kPlanLoads.begin(), kPlanLoads.end());
+    for (std::size_t p = 0; p < poses.size(); ++p) {
+      for (const auto& load : loads_) {
+        LoadSample sample;
+        sample.angles = poses[p];
+        sample.force_n = Eigen::Vector3d(load.data());
+        sample.force_point = sample.measuring_point = robot.tool.translation();
+        sample.deflection_std_m = Eigen::Vector3d::Constant(std_mm_.value_or(kPlanStdMm) * 1e-3);
+        document.candidates.push_back(sample);
+        document.pose.push_back(static_cast<int>(p));
+      }
+    }
+    document.plan = plan_measurements(robot, document.candidates, components_, *plan_);
+    for (int j = 0; j < kJoints; ++j) {
+      if (document.plan.identifiability.visibility[static_cast<std::size_t>(j)] != Visibility::kVisible) {
+        warn("joint " + robot.joints[static_cast<std::size_t>(j)].name +
+             " cannot be identified from these poses and loads");
+      }
+    }
+    write_document(main_output(), plan_to_json(document, robot));
+  }
+
+  std::string robot_path_, from_, loss_ = "squared", expected_path_;
+  std::array<bool, 3> components_ = {true, true, true};
+  std::optional<int> plan_;
+  std::vector<std::array<double, 3>> loads_;
+  std::optional<double> std_mm_;
+};
+
+}  // namespace
+}  // namespace stablecut
+
+int main(int argc, char** argv) { return stablecut::JointStiffnessTool().main(argc, argv); }

@@ -1,0 +1,21 @@
+// Lists of three and of six numbers: vectors, joint angles, values per joint.
+#pragma once
+
+#include <optional>
+
+#include "document/node.h"
+#include "robot/robot.h"
+
+namespace stablecut {
+
+/// [x, y, z].
+Eigen::Vector3d vector_from(const Node& node, const Bound& bound = kAnyNumber);
+
+/// Six angles in degrees, as radians.
+JointAngles joint_angles_from(const Node& node);
+Json joint_angles_to_json(const JointAngles& angles);
+
+/// A number, or null.
+Json number_or_null(std::optional<double> value);
+
+}  // namespace stablecut

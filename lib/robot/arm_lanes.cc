@@ -1,0 +1,255 @@
+#include "robot/arm_lanes.h"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define STABLECUT_WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define STABLECUT_WIDE
+#endif
+#define STABLECUT_INLINE inline __attribute__((always_inline))
+
+namespace stablecut {
+namespace {
+
+// Four doubles that the compiler keeps in vector registers: one of 256 bits where there are such, else two of
+// 128.
+typedef double Lanes __attribute__((vector_size(kArms * sizeof(double))));
+
+constexpr double kPi = 3.141592653589793238;
+constexpr double kTurn = 2 * kPi;
+constexpr double kReachTolerance = 1e-12;  // relative
+constexpr double kFreeRadius = 1e-10;      // m: nearer to axis 1 than this, joint 1 is free
+constexpr double kFreeSine = 1e-11;        // axes 4 and 6 nearer in line than this: joint 4 is free
+
+STABLECUT_INLINE Lanes square_root(const Lanes& v) {
+  return Lanes{__builtin_sqrt(v[0]), __builtin_sqrt(v[1]), __builtin_sqrt(v[2]), __builtin_sqrt(v[3])};
+}
+STABLECUT_INLINE Lanes size_of(const Lanes& v) { return v < 0 ? -v : v; }
+STABLECUT_INLINE Lanes least(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
+STABLECUT_INLINE Lanes largest_of(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
+STABLECUT_INLINE void store(const Lanes& v, double* to) { std::memcpy(to, &v, sizeof v); }
+STABLECUT_INLINE Lanes load(const double* from) {
+  Lanes v;
+  std::memcpy(&v, from, sizeof v);
+  return v;
+}
+
+// On |t| <= tan(pi/8): atan(t) = t + t^3 p(t^2). Interpolated at the 11 Chebyshev points of [0, tan^2(pi/8)];
+// the error of the polynomial is 5e-18.
+constexpr double kA[11] = {-0.3333333333333333,  0.1999999999999552,   -0.14285714284666542,
+                           0.11111111015256292,  -0.09090904578121085, 0.07692183190760651,
+                           -0.0666451144646022,  0.05858148904795124,  -0.050854496960392584,
+                           0.039231657085083686, -0.019176885636589053};
+
+// Without branches: |y/x| or |x/y|, whichever is at most 1, and above tan(pi/8) the distance from pi/4.
+STABLECUT_INLINE Lanes angle_of(const Lanes& y, const Lanes& x) {
+  const Lanes ax = size_of(x), ay = size_of(y);
+  const Lanes large = largest_of(ax, ay), small = least(ax, ay);
+  const auto upper = small > 0.41421356237309503 * large;
+  const Lanes denominator = upper ? small + large : large;
+  const Lanes t = (upper ? small - large : small) / (denominator > 0 ? denominator : Lanes{} + 1);
+  const Lanes s = t * t;
+  Lanes p = Lanes{} + kA[10];
+  for (int i = 9; i >= 0; --i) p = p * s + kA[i];
+  Lanes angle = t + t * s * p + (upper ? Lanes{} + 0.25 * kPi : Lanes{});
+  angle = ay > ax ? 0.5 * kPi - angle : angle;
+  angle = x < 0 ? kPi - angle : angle;
+  return y < 0 ? -angle : angle;
+}
+
+// theta -> the controller angle nearest the middle of the range. Rounds to whole turns by adding what has no
+// fraction bits, which is the same on every processor.
+STABLECUT_INLINE Lanes controller_angle(const ArmConstants& robot, int joint, const Lanes& theta) {
+  constexpr double kShift = 6755399441055744.0;  // 1.5 * 2^52
+  const Lanes angle = robot.sign[joint] * (theta - robot.offset[joint]);
+  const Lanes turns = (robot.middle[joint] - angle) * (1 / kTurn);
+  return angle + kTurn * ((turns + kShift) - kShift);
+}
+
+STABLECUT_INLINE Lanes joint_margin(const ArmConstants& robot, int joint, const Lanes& angle) {
+  return robot.half_range[joint] - size_of(angle - robot.middle[joint]);
+}
+
+}  // namespace
+
+STABLECUT_WIDE void solve_arms(const ArmConstants& robot, const ArmTarget& target, ArmLanes& out) {
+  const ArmConstants k = robot;
+  // The target in the home frame.
+  const auto home = [&k](const double v[3], double w[3]) {
+    w[0] = v[0];
+    w[1] = k.cos_alpha0 * v[1] + k.sin_alpha0 * v[2];
+    w[2] = k.cos_alpha0 * v[2] - k.sin_alpha0 * v[1];
+  };
+  double x6[3], z6[3], p6[3];
+  home(target.x, x6);
+  home(target.z, z6);
+  home(target.origin, p6);
+  p6[0] -= k.a0;
+  p6[2] -= k.d1;
+  const double wx = p6[0] - k.d6 * z6[0], wy = p6[1] - k.d6 * z6[1], wz = p6[2] - k.d6 * z6[2];
+  for (int i = 0; i < 3; ++i) out.axis6[i] = z6[i];
+  out.wrist[0] = wx;
+  out.wrist[1] = wy;
+  out.wrist[2] = wz;
+
+  // Joint 1 turns the wrist centre into the plane that lies along_axis2 from axis 1:
+  // z2 . wrist = -sin(alpha1) y1 + cos(alpha1) z = along_axis2, with (x1, y1) in frame 1.
+  const double radius2 = wx * wx + wy * wy;
+  const double y1 = (k.cos_alpha1 * wz - k.along_axis2) / k.sin_alpha1;
+  const double x1_squared = radius2 - y1 * y1;
+  const bool on_axis1 = radius2 < kFreeRadius * kFreeRadius;
+  const double per_radius2 = on_axis1 ? 0 : 1 / radius2;
+  const double free_c1 = on_axis1 ? std::cos(k.free1) : 0, free_s1 = on_axis1 ? std::sin(k.free1) : 0;
+  const double free_c4 = std::cos(k.free4), free_s4 = std::sin(k.free4);
+  const bool shoulder_reaches = x1_squared >= -kReachTolerance * (radius2 + k.forearm * k.forearm);
+  const double x1_size = std::sqrt(x1_squared > 0 ? x1_squared : 0);
+  const double v = k.cos_alpha1 * y1 + k.sin_alpha1 * wz;
+  const double sum2 = k.a2 * k.a2 + k.forearm * k.forearm, per_2al = 0.5 / (k.a2 * k.forearm);
+  const double wrist45 = k.wrist4 * k.wrist5;
+  const Lanes front = {1, 1, -1, -1}, side = {1, -1, 1, -1};
+  const Lanes zero = {}, one = zero + 1;
+
+  // Shoulder.
+  const Lanes x1 = front * x1_size;
+  const Lanes c1 = (wx * x1 + wy * y1) * per_radius2 + free_c1;
+  const Lanes s1 = (wy * x1 - wx * y1) * per_radius2 + free_s1;
+  // The planar pair: u + i v = exp(i theta2) (a2 + forearm exp(i bent)).
+  const Lanes u = x1 - k.a1;
+  const Lanes reach2 = u * u + v * v;
+  const Lanes cos_bent_raw = (reach2 - sum2) * per_2al;
+  const auto bends = size_of(cos_bent_raw) <= 1 + kReachTolerance;
+  const Lanes cb = least(largest_of(cos_bent_raw, Lanes{} - 1), Lanes{} + 1);
+  const Lanes sb = side * square_root((1 - cb) * (1 + cb));
+  const Lanes tx = k.a2 + k.forearm * cb, ty = k.forearm * sb;
+  const Lanes size2 = reach2 * (tx * tx + ty * ty);
+  const auto opened = size2 > 1e-40;
+  const Lanes per_size = 1 / square_root(opened ? size2 : one);
+  const Lanes c2 = opened ? (u * tx + v * ty) * per_size : one;
+  const Lanes s2 = opened ? (v * tx - u * ty) * per_size : zero;
+  const Lanes cp = cb * k.cos_bend + sb * k.sin_bend, sp = sb * k.cos_bend - cb * k.sin_bend;
+  const Lanes c23 = c2 * cp - s2 * sp, s23 = s2 * cp + c2 * sp;
+  // Axes of frame 3 turned by alpha3: m4x, m4y, m4z; m4z is axis 4.
+  const Lanes f1yx = -s1 * k.cos_alpha1, f1yy = c1 * k.cos_alpha1, f1yz = zero + k.sin_alpha1;
+  const Lanes f1zx = s1 * k.sin_alpha1, f1zy = -c1 * k.sin_alpha1, f1zz = zero + k.cos_alpha1;
+  const Lanes exx = c23 * c1 + s23 * f1yx, exy = c23 * s1 + s23 * f1yy, exz = s23 * f1yz;
+  const Lanes eyx = c23 * f1yx - s23 * c1, eyy = c23 * f1yy - s23 * s1, eyz = c23 * f1yz;
+  const Lanes ax = k.cos_alpha3 * eyx + k.sin_alpha3 * f1zx, ay = k.cos_alpha3 * eyy + k.sin_alpha3 * f1zy,
+              az = k.cos_alpha3 * eyz + k.sin_alpha3 * f1zz;
+  const Lanes bx = k.cos_alpha3 * f1zx - k.sin_alpha3 * eyx, by = k.cos_alpha3 * f1zy - k.sin_alpha3 * eyy,
+              bz = k.cos_alpha3 * f1zz - k.sin_alpha3 * eyz;
+  // M = Rz(theta4) Rx(alpha4) Rz(theta5) Rx(alpha5) Rz(theta6), its first and third columns.
+  const Lanes m11 = exx * x6[0] + exy * x6[1] + exz * x6[2], m21 = ax * x6[0] + ay * x6[1] + az * x6[2],
+              m31 = bx * x6[0] + by * x6[1] + bz * x6[2];
+  const Lanes m13 = exx * z6[0] + exy * z6[1] + exz * z6[2], m23 = ax * z6[0] + ay * z6[1] + az * z6[2],
+              m33 = bx * z6[0] + by * z6[1] + bz * z6[2];
+  // m13 = c4 s5 wrist5, m23 = s4 s5 wrist5, m33 = -wrist45 c5; here with s5 >= 0.
+  const Lanes s5 = square_root(m13 * m13 + m23 * m23), c5 = -wrist45 * m33;
+  const auto in_line = s5 < kFreeSine;
+  const Lanes per_s5 = k.wrist5 / (in_line ? one : s5);
+  const Lanes c4 = in_line ? zero + free_c4 : m13 * per_s5, s4 = in_line ? zero + free_s4 : m23 * per_s5;
+  // theta6 from what is left after theta4 and theta5: well conditioned in every pose.
+  const Lanes lx = c4 * m11 + s4 * m21, ly = c4 * m21 - s4 * m11;
+  const Lanes c6 = c5 * lx + k.wrist4 * s5 * m31, s6 = -wrist45 * ly;
+
+  const Lanes theta4 = angle_of(s4, c4), theta5 = angle_of(s5, c5), theta6 = angle_of(s6, c6);
+  const Lanes arm_angles[3] = {controller_angle(k, 0, angle_of(s1, c1)),
+                               controller_angle(k, 1, angle_of(s2, c2)),
+                               controller_angle(k, 2, angle_of(k.elbow_sense * sp, cp))};
+  const Lanes wrist_angles[2][3] = {
+      {controller_angle(k, 3, theta4), controller_angle(k, 4, theta5), controller_angle(k, 5, theta6)},
+      {controller_angle(k, 3, theta4 + kPi), controller_angle(k, 4, -theta5),
+       controller_angle(k, 5, theta6 + kPi)}};
+  Lanes arm_margin = joint_margin(k, 0, arm_angles[0]);
+  for (int j = 1; j < 3; ++j) arm_margin = least(arm_margin, joint_margin(k, j, arm_angles[j]));
+  const Lanes nowhere = zero - std::numeric_limits<double>::infinity();
+  arm_margin = bends ? arm_margin : nowhere;
+  if (!shoulder_reaches) arm_margin = nowhere;
+  for (int w = 0; w < 2; ++w) {
+    Lanes margin = arm_margin;
+    for (int j = 0; j < 3; ++j) {
+      store(arm_angles[j], out.angle[j] + w * kArms);
+      store(wrist_angles[w][j], out.angle[3 + j] + w * kArms);
+      margin = least(margin, joint_margin(k, 3 + j, wrist_angles[w][j]));
+    }
+    store(margin, out.limit_margin + w * kArms);
+  }
+
+  store(f1zx, out.axis2[0]);
+  store(f1zy, out.axis2[1]);
+  store(f1zz, out.axis2[2]);
+  store(k.a1 * c1, out.point2[0]);
+  store(k.a1 * s1, out.point2[1]);
+  store(zero, out.point2[2]);
+  // The upper arm lies along c2 (x of frame 1) + s2 (its y turned by alpha1).
+  store(k.a1 * c1 + k.a2 * (c2 * c1 + s2 * f1yx), out.point3[0]);
+  store(k.a1 * s1 + k.a2 * (c2 * s1 + s2 * f1yy), out.point3[1]);
+  store(k.a2 * s2 * f1yz, out.point3[2]);
+  store(bx, out.axis4[0]);
+  store(by, out.axis4[1]);
+  store(bz, out.axis4[2]);
+  store(k.wrist4 * (s4 * exx - c4 * ax), out.axis5[0]);
+  store(k.wrist4 * (s4 * exy - c4 * ay), out.axis5[1]);
+  store(k.wrist4 * (s4 * exz - c4 * az), out.axis5[2]);
+}
+
+STABLECUT_WIDE void arm_compliances(const ArmLanes& lanes, const double point[3],
+                                    const double joint_compliance[6], double compliance[6][kArms]) {
+  const double px = point[0], py = point[1], pz = point[2];
+  const double rx = px - lanes.wrist[0], ry = py - lanes.wrist[1], rz = pz - lanes.wrist[2];
+  const double c1 = joint_compliance[0], c2 = joint_compliance[1], c3 = joint_compliance[2],
+               c4 = joint_compliance[3], c5 = joint_compliance[4], c6 = joint_compliance[5];
+  // Joints 1 and 6 are the same for the four arms.
+  const double v1x = -py, v1y = px;
+  const double v6x = lanes.axis6[1] * rz - lanes.axis6[2] * ry,
+               v6y = lanes.axis6[2] * rx - lanes.axis6[0] * rz,
+               v6z = lanes.axis6[0] * ry - lanes.axis6[1] * rx;
+  const double xx = c1 * v1x * v1x + c6 * v6x * v6x, xy = c1 * v1x * v1y + c6 * v6x * v6y,
+               xz = c6 * v6x * v6z;
+  const double yy = c1 * v1y * v1y + c6 * v6y * v6y, yz = c6 * v6y * v6z, zz = c6 * v6z * v6z;
+  const auto along = [](const double axis[3][kArms], const Lanes& x, const Lanes& y, const Lanes& z,
+                        Lanes v[3]) {
+    const Lanes ax = load(axis[0]), ay = load(axis[1]), az = load(axis[2]);
+    v[0] = ay * z - az * y;
+    v[1] = az * x - ax * z;
+    v[2] = ax * y - ay * x;
+  };
+  const Lanes zero = {};
+  Lanes v2[3], v3[3], v4[3], v5[3];
+  along(lanes.axis2, px - load(lanes.point2[0]), py - load(lanes.point2[1]), pz - load(lanes.point2[2]), v2);
+  along(lanes.axis2, px - load(lanes.point3[0]), py - load(lanes.point3[1]), pz - load(lanes.point3[2]), v3);
+  along(lanes.axis4, zero + rx, zero + ry, zero + rz, v4);
+  along(lanes.axis5, zero + rx, zero + ry, zero + rz, v5);
+  const auto entry = [&](int a, int b) {
+    return c2 * v2[a] * v2[b] + c3 * v3[a] * v3[b] + (c4 * v4[a] * v4[b] + c5 * v5[a] * v5[b]);
+  };
+  store(xx + entry(0, 0), compliance[0]);
+  store(xy + entry(0, 1), compliance[1]);
+  store(xz + entry(0, 2), compliance[2]);
+  store(yy + entry(1, 1), compliance[3]);
+  store(yz + entry(1, 2), compliance[4]);
+  store(zz + entry(2, 2), compliance[5]);
+}
+
+// q + 2 p cos(acos(r) / 3), with q the mean, p and r from the second and third invariants of the deviator.
+STABLECUT_WIDE void largest_arm_compliances(const double compliance[6][kArms], double largest[kArms]) {
+  const Lanes xx = load(compliance[0]), xy = load(compliance[1]), xz = load(compliance[2]);
+  const Lanes yy = load(compliance[3]), yz = load(compliance[4]), zz = load(compliance[5]);
+  const Lanes mean = (xx + yy + zz) * (1.0 / 3);
+  const Lanes a = xx - mean, b = yy - mean, c = zz - mean;
+  const Lanes p2 = (a * a + b * b + c * c + 2 * (xy * xy + xz * xz + yz * yz)) * (1.0 / 6);
+  const Lanes p = square_root(p2), zero = {}, one = zero + 1;
+  const Lanes determinant = a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz);
+  const Lanes ratio = p2 > 0 ? 0.5 * determinant / (p2 * p) : zero;
+  const Lanes r = least(one, largest_of(-one, ratio));
+  const Lanes third = angle_of(square_root((1 - r) * (1 + r)), r) * (1.0 / 3);
+  // cos on [0, pi/3] by its series; the next term is below 1e-17.
+  const Lanes t2 = third * third;
+  Lanes cosine = one;
+  for (int n = 18; n >= 2; n -= 2) cosine = 1 - t2 * cosine * (1.0 / (n * (n - 1)));
+  store(mean + 2 * p * cosine, largest);
+}
+
+}  // namespace stablecut

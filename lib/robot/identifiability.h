@@ -1,0 +1,32 @@
+// Which joints a set of loads and measurements can see, before any measured value is looked at.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "robot/robot.h"
+
+namespace stablecut {
+
+enum class Visibility {
+  kVisible,
+  kUnseen,       ///< the loads put no torque on the joint, or the measurements do not see its turn
+  kInseparable,  ///< its effect is a mixture of other joints' effects
+};
+
+/// Of equations A c = b whose rows all have deviation 1.
+struct Identifiability {
+  std::array<Visibility, kJoints> visibility;
+  int rank = 0;
+  double condition_number = 1;   ///< of the columns that can be told apart, each scaled to length 1
+  std::vector<int> independent;  ///< joints whose columns span all that is seen, `rank` of them
+};
+
+/// A joint is unseen when its column is below 1e-4 of what it would be with load and measurement square to
+/// its lever
+/// (`largest`): that much comes from misalignment and is no measurement. Columns are dependent below 1e-6 of
+/// the largest singular value of the scaled columns.
+Identifiability identifiability(const Eigen::MatrixXd& a, const Eigen::MatrixXd& largest);
+
+}  // namespace stablecut

@@ -1,0 +1,363 @@
+#include "robot/identification.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/statistics.h"
+
+namespace stablecut {
+namespace {
+
+constexpr double kConfidence = 0.975;  // two-sided 95 %
+constexpr double kOutlier = 4;         // deviations
+constexpr double kHuber = 2;           // deviations of a sample from where it counts less
+constexpr double kImplausible = 1e-3;  // chi-square tail
+constexpr int kMostReweightings = 100;
+
+// Least squares over some columns, none below 0: the best of the faces whose own solution is not negative.
+// With at most six unknowns they are tried all.
+Eigen::VectorXd not_negative(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+  const Eigen::Index n = a.cols();
+  Eigen::VectorXd best = Eigen::VectorXd::Zero(n);
+  double least = b.squaredNorm();
+  for (int face = 1; face < 1 << n; ++face) {
+    std::vector<Eigen::Index> free;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (face >> i & 1) free.push_back(i);
+    }
+    const Eigen::MatrixXd part = a(Eigen::all, free);
+    // Scaled columns: their sizes differ by orders of magnitude.
+    const Eigen::VectorXd scale = part.colwise().norm();
+    const Eigen::VectorXd solution =
+        (part * scale.cwiseInverse().asDiagonal()).householderQr().solve(b).cwiseQuotient(scale);
+    if ((solution.array() < 0).any()) continue;
+    const double sum = (part * solution - b).squaredNorm();
+    if (sum < least) {
+      least = sum;
+      best.setZero();
+      for (std::size_t i = 0; i < free.size(); ++i) best[free[i]] = solution[static_cast<Eigen::Index>(i)];
+    }
+  }
+  return best;
+}
+
+// Rows of one sample: they come one after another.
+struct Block {
+  int sample;
+  Eigen::Index first, count;
+};
+
+std::vector<Block> blocks_of(const std::vector<int>& sample) {
+  std::vector<Block> blocks;
+  for (std::size_t i = 0; i < sample.size(); ++i) {
+    if (blocks.empty() || blocks.back().sample != sample[i])
+      blocks.push_back({sample[i], static_cast<Eigen::Index>(i), 0});
+    ++blocks.back().count;
+  }
+  return blocks;
+}
+
+class Fit {
+ public:
+  Fit(const ComplianceEquations& equations, const IdentificationOptions& options)
+      : equations_(equations), options_(options), blocks_(blocks_of(equations.sample)) {
+    stated_ = equations.std.size() > 0;
+    rows_ = equations.a.rows();
+    std_ = stated_ ? equations.std : Eigen::VectorXd::Ones(rows_);
+    weight_ = Eigen::VectorXd::Ones(rows_);
+  }
+
+  Identification run() {
+    Identification result;
+    const bool mixed = !stated_ && std::find(equations_.rotation.begin(), equations_.rotation.end(), true) !=
+                                       equations_.rotation.end();
+    // Rows per unit of deviation; deviations of deflections against rotations settle with the residuals.
+    find_columns();
+    estimate();
+    for (int i = 0; i < kMostReweightings && (mixed || options_.huber); ++i) {
+      const Eigen::VectorXd before = solution_;
+      if (mixed) balance_rotations();
+      if (options_.huber) reweight();
+      estimate();
+      if ((solution_ - before).norm() <= 1e-12 * solution_.norm()) break;
+    }
+    report(result);
+    return result;
+  }
+
+ private:
+  void find_columns() {
+    seen_ = identifiability(std_.cwiseInverse().asDiagonal() * equations_.a,
+                            std_.cwiseInverse().asDiagonal() * equations_.largest);
+    std::vector<Eigen::Index> columns(seen_.independent.begin(), seen_.independent.end());
+    a_ = equations_.a(Eigen::all, columns);
+  }
+
+  void estimate() {
+    if (a_.cols() == 0) return;
+    const Eigen::VectorXd whiten = weight_.cwiseSqrt().cwiseQuotient(std_);
+    solution_ = not_negative(whiten.asDiagonal() * a_, whiten.cwiseProduct(equations_.b));
+    residual_ = equations_.b - a_ * solution_;
+  }
+
+  // The unscaled covariance (A^T W A)^-1.
+  Eigen::MatrixXd inverse_normal() const {
+    const Eigen::VectorXd whiten = weight_.cwiseSqrt().cwiseQuotient(std_);
+    const Eigen::MatrixXd whitened = whiten.asDiagonal() * a_;
+    const Eigen::VectorXd scale = whitened.colwise().norm();
+    const Eigen::MatrixXd scaled = whitened * scale.cwiseInverse().asDiagonal();
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(scaled);
+    const Eigen::Index n = a_.cols();
+    const Eigen::MatrixXd root = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
+    const Eigen::MatrixXd inverse =
+        root.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(n, n));
+    return scale.cwiseInverse().asDiagonal() * (inverse * inverse.transpose()) *
+           scale.cwiseInverse().asDiagonal();
+  }
+
+  double squares(bool rotation, double& freedom) const {
+    const Eigen::MatrixXd normal = inverse_normal();
+    double sum = 0;
+    freedom = 0;
+    for (Eigen::Index i = 0; i < rows_; ++i) {
+      if (equations_.rotation[static_cast<std::size_t>(i)] != rotation) continue;
+      const double per_std = 1 / std_[i];
+      sum += weight_[i] * residual_[i] * residual_[i];
+      freedom += 1 - weight_[i] * per_std * per_std * (a_.row(i) * normal * a_.row(i).transpose()).value();
+    }
+    return sum;
+  }
+
+  void balance_rotations() {
+    if (a_.cols() == 0) return;
+    double freedom[2], std[2];
+    for (const bool rotation : {false, true}) {
+      const double sum = squares(rotation, freedom[rotation]);
+      std[rotation] = freedom[rotation] > 1e-9 ? std::sqrt(sum / freedom[rotation]) : 0;
+    }
+    // Without residuals (exact data) or without freedom there is nothing to settle.
+    const double b_size = equations_.b.cwiseAbs().maxCoeff();
+    if (!(std[0] > 1e-12 * b_size) || !(std[1] > 1e-12 * b_size)) return;
+    for (Eigen::Index i = 0; i < rows_; ++i) std_[i] = std[equations_.rotation[static_cast<std::size_t>(i)]];
+  }
+
+  // RMS of a sample's residuals over their deviations.
+  double deviations_of(const Block& block, double unit) const {
+    const Eigen::VectorXd z =
+        residual_.segment(block.first, block.count).cwiseQuotient(std_.segment(block.first, block.count));
+    return z.norm() / (std::sqrt(static_cast<double>(block.count)) * unit);
+  }
+
+  // The deviation that std_ stands for: 1 where it is stated, else from the middle of the residuals.
+  double robust_unit() const {
+    if (stated_) return 1;
+    std::vector<double> z(static_cast<std::size_t>(rows_));
+    for (Eigen::Index i = 0; i < rows_; ++i)
+      z[static_cast<std::size_t>(i)] = std::abs(residual_[i]) / std_[i];
+    std::nth_element(z.begin(), z.begin() + rows_ / 2, z.end());
+    return z[static_cast<std::size_t>(rows_ / 2)] / 0.6745;
+  }
+
+  void reweight() {
+    const double unit = robust_unit();
+    if (!(unit > 0)) return;
+    for (const Block& block : blocks_) {
+      const double z = deviations_of(block, unit);
+      weight_.segment(block.first, block.count).setConstant(z > kHuber ? kHuber / z : 1);
+    }
+  }
+
+  void report(Identification& result) {
+    result.rank = seen_.rank;
+    result.condition_number = seen_.condition_number;
+    result.low.fill(std::numeric_limits<double>::quiet_NaN());
+    result.high = result.low;
+    const auto n = a_.cols();
+    for (int j = 0; j < kJoints; ++j) {
+      switch (seen_.visibility[static_cast<std::size_t>(j)]) {
+        case Visibility::kVisible:
+          result.verdict[static_cast<std::size_t>(j)] = JointVerdict::kIdentified;
+          break;
+        case Visibility::kUnseen:
+          result.verdict[static_cast<std::size_t>(j)] = JointVerdict::kUnseen;
+          break;
+        case Visibility::kInseparable:
+          result.verdict[static_cast<std::size_t>(j)] = JointVerdict::kInseparable;
+          break;
+      }
+    }
+    if (n == 0) return;
+    const Eigen::MatrixXd normal = inverse_normal();
+    const double freedom = static_cast<double>(rows_ - n);
+    double scale = 1;
+    if (stated_) {
+      const double chi_square = residual_.cwiseQuotient(std_).cwiseAbs2().cwiseProduct(weight_).sum();
+      result.degrees_of_freedom = std::numeric_limits<double>::infinity();
+      result.deviations_known = true;
+      if (freedom > 0) {
+        result.chi_square_per_dof = chi_square / freedom;
+        result.chi_square_tail = chi_square_tail(chi_square, freedom);
+        if (result.chi_square_tail < kImplausible) scale = chi_square / freedom;
+      }
+    } else if (freedom > 0) {
+      result.degrees_of_freedom = freedom;
+      result.deviations_known = true;
+      scale = residual_.cwiseQuotient(std_).cwiseAbs2().cwiseProduct(weight_).sum() / freedom;
+    }
+    Eigen::MatrixXd covariance = scale * normal;
+    if (options_.huber) covariance = sandwich(normal);
+
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const int joint = seen_.independent[static_cast<std::size_t>(i)];
+      result.compliance[joint] = solution_[i];
+      if (seen_.visibility[static_cast<std::size_t>(joint)] != Visibility::kVisible) continue;
+      for (Eigen::Index k = 0; k < n; ++k) {
+        const int other = seen_.independent[static_cast<std::size_t>(k)];
+        if (seen_.visibility[static_cast<std::size_t>(other)] == Visibility::kVisible) {
+          result.covariance(joint, other) = covariance(i, k);
+        }
+      }
+    }
+    for (int joint = 0; joint < kJoints; ++joint) {
+      if (!result.identified(joint)) {
+        result.compliance[joint] = 0;
+        continue;
+      }
+      double half = 0;
+      if (result.deviations_known) {
+        half = student_t_quantile(kConfidence, result.degrees_of_freedom) *
+               std::sqrt(result.covariance(joint, joint));
+        result.low[static_cast<std::size_t>(joint)] = result.compliance[joint] - half;
+        result.high[static_cast<std::size_t>(joint)] = result.compliance[joint] + half;
+      }
+      if (!(result.compliance[joint] > half))
+        result.verdict[static_cast<std::size_t>(joint)] = JointVerdict::kUncertain;
+    }
+    residuals(result);
+    cross_validate(normal, result);
+    list_outliers(std::sqrt(scale), result);
+  }
+
+  // What the weighted samples scatter by themselves: (A^T W A)^-1 (sum w^2 A^T r r^T A) (A^T W A)^-1.
+  Eigen::MatrixXd sandwich(const Eigen::MatrixXd& normal) const {
+    Eigen::MatrixXd middle = Eigen::MatrixXd::Zero(a_.cols(), a_.cols());
+    for (const Block& block : blocks_) {
+      const auto rows = Eigen::seqN(block.first, block.count);
+      const Eigen::VectorXd score =
+          a_(rows, Eigen::all).transpose() *
+          (weight_(rows).cwiseProduct(residual_(rows)).cwiseQuotient(std_(rows).cwiseAbs2()));
+      middle += score * score.transpose();
+    }
+    const double count = static_cast<double>(blocks_.size()), n = static_cast<double>(a_.cols());
+    const double small_sample = 3 * count > n ? 3 * count / (3 * count - n) : 1;
+    return small_sample * normal * middle * normal;
+  }
+
+  void residuals(Identification& result) const {
+    double sum[2] = {0, 0};
+    int count[2] = {0, 0};
+    for (Eigen::Index i = 0; i < rows_; ++i) {
+      const bool rotation = equations_.rotation[static_cast<std::size_t>(i)];
+      sum[rotation] += residual_[i] * residual_[i];
+      ++count[rotation];
+    }
+    if (count[0] > 0) result.residual_rms_m = std::sqrt(sum[0] / count[0]);
+    if (count[1] > 0) result.residual_rms_rad = std::sqrt(sum[1] / count[1]);
+  }
+
+  // Each sample from all others: its residual grows by (1 - H_ii)^-1, H the hat matrix's block of the sample.
+  void cross_validate(const Eigen::MatrixXd& normal, Identification& result) const {
+    double sum = 0;
+    int count = 0;
+    for (const Block& block : blocks_) {
+      const auto rows = Eigen::seqN(block.first, block.count);
+      const Eigen::VectorXd whiten = weight_(rows).cwiseSqrt().cwiseQuotient(std_(rows));
+      const Eigen::MatrixXd a = whiten.asDiagonal() * a_(rows, Eigen::all);
+      const Eigen::MatrixXd left =
+          Eigen::MatrixXd::Identity(block.count, block.count) - a * normal * a.transpose();
+      const Eigen::JacobiSVD<Eigen::MatrixXd> svd(left, Eigen::ComputeThinU | Eigen::ComputeThinV);
+      if (svd.singularValues()[block.count - 1] < 1e-9) {
+        ++result.samples_not_predicted;
+        continue;
+      }
+      const Eigen::VectorXd error =
+          svd.solve(Eigen::VectorXd(whiten.cwiseProduct(residual_(rows)))).cwiseQuotient(whiten);
+      for (Eigen::Index i = 0; i < block.count; ++i) {
+        if (equations_.rotation[static_cast<std::size_t>(block.first + i)]) continue;
+        sum += error[i] * error[i];
+        ++count;
+      }
+    }
+    if (count > 0) result.cross_validation_rms_m = std::sqrt(sum / count);
+  }
+
+  void list_outliers(double unit, Identification& result) const {
+    if (options_.huber) unit = robust_unit();
+    const double b_size = equations_.b.cwiseQuotient(std_).cwiseAbs().maxCoeff();
+    if (!result.deviations_known || !(unit > 1e-12 * b_size)) return;
+    for (const Block& block : blocks_) {
+      const double z = deviations_of(block, unit);
+      if (z <= kOutlier) continue;
+      Outlier outlier{block.sample, 0, z, weight_[block.first]};
+      for (Eigen::Index i = block.first; i < block.first + block.count; ++i) {
+        if (!equations_.rotation[static_cast<std::size_t>(i)])
+          outlier.residual_m = std::hypot(outlier.residual_m, residual_[i]);
+      }
+      result.outliers.push_back(outlier);
+    }
+    std::stable_sort(result.outliers.begin(), result.outliers.end(),
+                     [](const Outlier& a, const Outlier& b) { return a.deviations > b.deviations; });
+  }
+
+  const ComplianceEquations& equations_;
+  const IdentificationOptions& options_;
+  std::vector<Block> blocks_;
+  bool stated_ = false;
+  Eigen::Index rows_ = 0;
+  Eigen::VectorXd std_,
+      weight_;  // deviation (up to a common factor when not stated) and robust weight of each row
+  Identifiability seen_;
+  Eigen::MatrixXd a_;  // columns of the independent joints
+  Eigen::VectorXd solution_, residual_;
+};
+
+}  // namespace
+
+JointStiffness Identification::stiffness() const {
+  JointStiffness result;
+  result.compliance_covariance.emplace(Matrix6d::Zero());
+  for (int j = 0; j < kJoints; ++j) {
+    if (!identified(j)) continue;
+    result.stiffness[static_cast<std::size_t>(j)] = 1 / compliance[j];
+    for (int i = 0; i < kJoints; ++i) {
+      if (identified(i)) (*result.compliance_covariance)(j, i) = covariance(j, i);
+    }
+  }
+  if (!deviations_known) result.compliance_covariance.reset();
+  return result;
+}
+
+Identification identify_stiffness(const Robot& robot, const std::vector<LoadSample>& samples,
+                                  const IdentificationOptions& options) {
+  const ComplianceEquations equations = compliance_equations(robot, samples, options.components);
+  Identification result = Fit(equations, options).run();
+  if (std::none_of(result.verdict.begin(), result.verdict.end(),
+                   [](JointVerdict v) { return v == JointVerdict::kIdentified; })) {
+    std::string why;
+    for (int j = 0; j < kJoints; ++j) {
+      const JointVerdict verdict = result.verdict[static_cast<std::size_t>(j)];
+      why += (j > 0 ? ", " : " ") + robot.joints[static_cast<std::size_t>(j)].name +
+             (verdict == JointVerdict::kUnseen        ? " is not seen by the loads and measurements"
+              : verdict == JointVerdict::kInseparable ? " cannot be told from others"
+                                                      : " is too uncertain to be told from rigid");
+    }
+    throw NoAnswer("no joint can be identified:" + why);
+  }
+  return result;
+}
+
+}  // namespace stablecut

@@ -1,0 +1,67 @@
+// Joint stiffness from loads and deflections (Yi et al., section 3; physics: unknowns 1/k, eqs. 10 and 11).
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "robot/identifiability.h"
+#include "robot/joint_stiffness.h"
+#include "robot/load_sample.h"
+
+namespace stablecut {
+
+struct IdentificationOptions {
+  bool huber = false;                                   ///< robust: samples far off count less
+  std::array<bool, 3> components = {true, true, true};  ///< of the deflection
+};
+
+/// Why a joint has no stiffness in the answer.
+enum class JointVerdict {
+  kIdentified,
+  kUnseen,       ///< the loads or measurements do not see it
+  kInseparable,  ///< seen only together with other joints
+  kUncertain,    ///< the 95 % interval of its compliance reaches 0: it may as well be rigid
+};
+
+struct Outlier {
+  int sample = 0;
+  double residual_m = 0;  ///< length of the residual deflection
+  double deviations = 0;  ///< RMS residual of the sample's rows over their deviation
+  double weight = 1;      ///< what the robust loss left of it
+};
+
+struct Identification {
+  std::array<JointVerdict, kJoints> verdict;
+  JointAngles compliance = JointAngles::Zero();  ///< estimates, rad/(N m); 0 where unseen
+  Matrix6d covariance = Matrix6d::Zero();        ///< of the estimates; zero rows where unseen or inseparable
+  bool deviations_known = false;                 ///< stated by the samples, or estimated from residuals
+  std::array<double, kJoints> low, high;         ///< 95 % interval of the compliances, NaN without deviations
+  int rank = 0;
+  double condition_number = 1;
+  double residual_rms_m = 0;                 ///< of the deflection components
+  std::optional<double> residual_rms_rad;    ///< of the rotations, when measured
+  double degrees_of_freedom = 0;             ///< infinite where the samples state deviations
+  std::optional<double> chi_square_per_dof;  ///< where they do
+  double chi_square_tail = 1;                ///< its probability, where they do
+  /// RMS of each sample's deflection less its prediction from all others; none when a sample cannot be
+  /// predicted so.
+  std::optional<double> cross_validation_rms_m;
+  int samples_not_predicted = 0;
+  std::vector<Outlier> outliers;  ///< more than 4 deviations off, the farthest first
+
+  bool identified(int joint) const {
+    return verdict[static_cast<std::size_t>(joint)] == JointVerdict::kIdentified;
+  }
+  JointStiffness stiffness() const;
+};
+
+/// Least squares in the compliances, none below 0. Weights: the samples' deviations; without them all
+/// deflections alike, and deflections against rotations by their residuals. Where the samples' deviations are
+/// plainly too small (chi-square tail below 1e-3) the covariance is scaled up. Throws NoAnswer when no joint
+/// can be identified.
+Identification identify_stiffness(const Robot& robot, const std::vector<LoadSample>& samples,
+                                  const IdentificationOptions& options);
+
+}  // namespace stablecut

@@ -1,0 +1,148 @@
+#include "robot/inverse.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/error.h"
+#include "base/units.h"
+
+namespace stablecut {
+namespace {
+
+constexpr double kLengthTolerance = 1e-9;  // m
+constexpr double kAngleTolerance = 1e-9;   // rad
+
+// The controller angle nearest to 0 inside the limits.
+double nearest_to_zero(const Joint& joint) { return std::clamp(0.0, joint.min_rad, joint.max_rad); }
+
+}  // namespace
+
+std::optional<UnsupportedGeometry> unsupported_geometry(const Robot& robot) {
+  const auto& j = robot.joints;
+  const auto length = [&](int joint, double value, const char* field) -> std::optional<UnsupportedGeometry> {
+    if (std::abs(value) <= kLengthTolerance) return std::nullopt;
+    return UnsupportedGeometry{joint, field, mm_from_metres(value),
+                               "0, since axes 4, 5 and 6 have to meet in one point (a spherical wrist)"};
+  };
+  const auto right_angle = [&](int joint) -> std::optional<UnsupportedGeometry> {
+    if (std::abs(j[joint].cos_alpha()) <= kAngleTolerance) return std::nullopt;
+    return UnsupportedGeometry{joint, "alpha_deg", degrees_from_radians(j[joint].alpha_rad()),
+                               "90 or -90, since the axes of the wrist have to cross at right angles"};
+  };
+  if (std::abs(j[1].sin_alpha()) <= kAngleTolerance) {
+    return UnsupportedGeometry{1, "alpha_deg", degrees_from_radians(j[1].alpha_rad()),
+                               "no multiple of 180, since axes 1 and 2 must not be parallel"};
+  }
+  if (std::abs(j[2].sin_alpha()) > kAngleTolerance) {
+    return UnsupportedGeometry{2, "alpha_deg", degrees_from_radians(j[2].alpha_rad()),
+                               "0 or 180, since the axes of shoulder and elbow have to be parallel"};
+  }
+  if (std::abs(j[2].a_m) <= kLengthTolerance) {
+    return UnsupportedGeometry{2, "a_mm", mm_from_metres(j[2].a_m), "an upper arm longer than 0"};
+  }
+  if (std::hypot(j[3].a_m, j[3].d_m * j[3].sin_alpha()) <= kLengthTolerance) {
+    return UnsupportedGeometry{3, "d_mm", mm_from_metres(j[3].d_m), "a forearm longer than 0"};
+  }
+  for (const auto& found : {length(4, j[4].a_m, "a_mm"), length(4, j[4].d_m, "d_mm"),
+                            length(5, j[5].a_m, "a_mm"), right_angle(4), right_angle(5)}) {
+    if (found) return found;
+  }
+  return std::nullopt;
+}
+
+InverseKinematics::InverseKinematics(const Robot& robot)
+    : frame6_from_tool_(robot.tool_in_frame6().inverse()), home_from_base_(Eigen::Isometry3d::Identity()) {
+  if (const auto bad = unsupported_geometry(robot)) {
+    throw InvalidArgument("joint " + robot.joints[bad->joint].name + ": " + bad->field + " " +
+                          std::to_string(bad->value) + ": expected " + bad->expected);
+  }
+  const auto& j = robot.joints;
+  ArmConstants& k = constants_;
+  k.cos_alpha0 = j[0].cos_alpha();
+  k.sin_alpha0 = j[0].sin_alpha();
+  k.a0 = j[0].a_m;
+  k.d1 = j[0].d_m;
+  k.cos_alpha1 = j[1].cos_alpha();
+  k.sin_alpha1 = j[1].sin_alpha();
+  k.a1 = j[1].a_m;
+  k.a2 = j[2].a_m;
+  k.elbow_sense = j[2].cos_alpha();
+  k.cos_alpha3 = k.elbow_sense * j[3].cos_alpha();
+  k.sin_alpha3 = k.elbow_sense * j[3].sin_alpha();
+  k.along_axis2 = j[1].d_m + k.elbow_sense * (j[2].d_m + j[3].d_m * j[3].cos_alpha());
+  // The wrist centre in frame 3 is (a3, -d4 sin(alpha3)) across axis 3; mirrored where axis 3 runs against
+  // axis 2.
+  const double bend_x = j[3].a_m, bend_y = -k.elbow_sense * j[3].d_m * j[3].sin_alpha();
+  k.forearm = std::hypot(bend_x, bend_y);
+  k.cos_bend = bend_x / k.forearm;
+  k.sin_bend = bend_y / k.forearm;
+  k.wrist4 = j[4].sin_alpha() > 0 ? 1 : -1;
+  k.wrist5 = j[5].sin_alpha() > 0 ? 1 : -1;
+  k.d6 = j[5].d_m;
+  for (int i = 0; i < kJoints; ++i) {
+    k.sign[i] = j[i].theta_sign;
+    k.offset[i] = j[i].theta_offset_rad;
+    k.middle[i] = j[i].middle_rad();
+    k.half_range[i] = j[i].half_range_rad();
+  }
+  k.free1 = j[0].theta_of(nearest_to_zero(j[0]));
+  k.free4 = j[3].theta_of(nearest_to_zero(j[3]));
+  home_from_base_.linear() << 1, 0, 0, 0, k.cos_alpha0, k.sin_alpha0, 0, -k.sin_alpha0, k.cos_alpha0;
+  home_from_base_.translation() << -k.a0, 0, -k.d1;
+}
+
+ArmTarget InverseKinematics::target_of(const Eigen::Isometry3d& tool) const {
+  const Eigen::Isometry3d frame6 = tool * frame6_from_tool_;
+  ArmTarget target;
+  for (int i = 0; i < 3; ++i) {
+    target.x[i] = frame6.linear()(i, 0);
+    target.z[i] = frame6.linear()(i, 2);
+    target.origin[i] = frame6.translation()[i];
+  }
+  return target;
+}
+
+std::vector<InverseSolution> InverseKinematics::solve(const Eigen::Isometry3d& tool) const {
+  ArmLanes lanes;
+  solve_arms(constants_, target_of(tool), lanes);
+  std::vector<InverseSolution> solutions;
+  for (int b = 0; b < kBranches; ++b) {
+    if (!std::isfinite(lanes.limit_margin[b])) continue;
+    InverseSolution solution{{}, b, lanes.limit_margin[b]};
+    for (int i = 0; i < kJoints; ++i) solution.angles[i] = lanes.angle[i][b];
+    const bool repeated = std::any_of(solutions.begin(), solutions.end(), [&](const InverseSolution& other) {
+      return (other.angles - solution.angles).lpNorm<Eigen::Infinity>() < 1e-9;
+    });
+    if (!repeated) solutions.push_back(solution);
+  }
+  return solutions;
+}
+
+std::vector<InverseSolution> InverseKinematics::solve(const Eigen::Isometry3d& tool,
+                                                      const JointAngles& free) const {
+  InverseKinematics other = *this;
+  other.constants_.free1 = constants_.sign[0] * free[0] + constants_.offset[0];
+  other.constants_.free4 = constants_.sign[3] * free[3] + constants_.offset[3];
+  return other.solve(tool);
+}
+
+std::vector<JointAngles> copies_within_limits(const Robot& robot, const JointAngles& angles,
+                                              double margin_rad) {
+  std::vector<JointAngles> copies{most_central_copies(robot, angles)};
+  for (int j = 0; j < kJoints; ++j) {
+    const Joint& joint = robot.joints[j];
+    std::vector<JointAngles> next;
+    for (const JointAngles& copy : copies) {
+      const double least = joint.min_rad + margin_rad, most = joint.max_rad - margin_rad;
+      for (double turn = std::ceil((least - copy[j]) / kTwoPi); copy[j] + turn * kTwoPi <= most; ++turn) {
+        next.push_back(copy);
+        next.back()[j] += turn * kTwoPi;
+      }
+    }
+    copies = std::move(next);
+  }
+  return copies;
+}
+
+}  // namespace stablecut

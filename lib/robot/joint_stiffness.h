@@ -1,0 +1,18 @@
+// What is known of the joints' stiffness.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "robot/kinematics.h"
+
+namespace stablecut {
+
+struct JointStiffness {
+  std::array<std::optional<double>, kJoints> stiffness;  ///< N m/rad
+  /// Of the compliances, (rad/(N m))^2, with zero rows where nothing is known; absent when no deviation is
+  /// known.
+  std::optional<Matrix6d> compliance_covariance;
+};
+
+}  // namespace stablecut

@@ -1,0 +1,41 @@
+// Where the joints' axes, the flange and the tool are, and how they move with the joints.
+#pragma once
+
+#include "robot/robot.h"
+
+namespace stablecut {
+
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// The robot at one set of angles, base frame, metres.
+struct RobotPose {
+  Eigen::Matrix<double, 3, kJoints> axis;   ///< unit vectors, positive in the sense of growing angles
+  Eigen::Matrix<double, 3, kJoints> point;  ///< a point on each axis: the origin of its frame
+  Eigen::Isometry3d frame6;
+  Eigen::Isometry3d flange;
+  Eigen::Isometry3d tool;
+};
+
+/// Forward kinematics: T(i-1, i) = Rx(alpha) Tx(a) Rz(theta) Tz(d), with a, alpha of link i-1 (eq. 1; the
+/// paper prints a_i cos(alpha) where it means d_i cos(alpha)).
+RobotPose robot_pose(const Robot& robot, const JointAngles& angles);
+
+/// Jacobian of a point fixed to the last link (base frame, m): rows velocity (m/rad), then rotation
+/// (rad/rad); column i is [z_i x (point - p_i); z_i] (eq. 4, in the base frame).
+Matrix6d jacobian(const RobotPose& pose, const Eigen::Vector3d& point);
+
+/// Its first three rows.
+Eigen::Matrix<double, 3, kJoints> translational_jacobian(const RobotPose& pose, const Eigen::Vector3d& point);
+
+/// The least singular value of the Jacobian at the tool point, lengths in metres: 0 at a singular pose.
+double singularity_margin(const RobotPose& pose);
+
+/// Angle (rad, -pi..pi) by which the tool's x axis is turned about the tool's z axis from where it is nearest
+/// to the base's x axis; where the tool axis is parallel to the base's x axis, nearest to its y axis.
+double redundancy_angle(const Eigen::Isometry3d& tool);
+
+/// The tool's frame with its z axis along `axis` (unit, base frame), at that redundancy angle and point.
+Eigen::Isometry3d tool_frame(const Eigen::Vector3d& point, const Eigen::Vector3d& axis,
+                             double redundancy_rad);
+
+}  // namespace stablecut

@@ -1,0 +1,36 @@
+// All that is said of one pose.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "robot/compliance.h"
+#include "robot/joint_stiffness.h"
+
+namespace stablecut {
+
+struct PoseReport {
+  JointAngles angles;
+  Eigen::Isometry3d tool;                       ///< base frame, m
+  double redundancy_rad = 0;                    ///< about the tool's own axis
+  double score = 0;                             ///< N/m, or m for a deflection
+  Eigen::Vector3d principal_compliance;         ///< m/N, largest first; about 0 where the arm cannot yield
+  Eigen::Vector3d directional_stiffness;        ///< along the tool's x, y, z, N/m
+  std::optional<Eigen::Vector3d> deflection_m;  ///< under the force, base frame
+  double limit_margin_rad = 0;
+  double singularity_margin = 0;
+  /// By linear propagation of the compliances' covariance.
+  std::optional<double> score_std, deflection_std_m;
+  JointAngles score_gradient;  ///< d score / d compliance
+};
+
+/// `joint_compliance` in rad/(N m); `covariance` of them where known. A force is needed for the index
+/// deflection.
+PoseReport report_pose(const Robot& robot, const JointAngles& angles, const StiffnessTask& task,
+                       const JointAngles& joint_compliance, const std::optional<Matrix6d>& covariance);
+
+/// Probability that pose a is better than pose b by the task's index, given the covariance.
+double probability_better(const PoseReport& a, const PoseReport& b, const StiffnessTask& task,
+                          const Matrix6d& covariance);
+
+}  // namespace stablecut

@@ -1,0 +1,400 @@
+#include "robot/pose_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/units.h"
+#include "robot/constrained_maximum.h"
+
+namespace stablecut {
+namespace {
+
+constexpr double kOwnStep = 0.05;           // m, of the search's own grid
+constexpr double kOwnTurn = 5 * kPi / 180;  // rad
+constexpr int kMostStartsPerArm = 12;
+constexpr double kEqualScore = 1e-7;  // relative
+constexpr double kSameAngle = 1e-4;   // rad: nearer poses are one
+
+Range at_most_apart(const Range& range, double step) {
+  if (range.is_point()) return {range.from, range.to, 1};
+  const int count = 1 + static_cast<int>(std::ceil((range.to - range.from) / step - 1e-9));
+  return {range.from, range.to, std::max(count, 2)};
+}
+
+PoseTask with_own_grid(const PoseTask& task) {
+  PoseTask own = task;
+  own.x = at_most_apart(task.x, kOwnStep);
+  own.y = at_most_apart(task.y, kOwnStep);
+  own.redundancy = at_most_apart(task.redundancy, kOwnTurn);
+  return own;
+}
+
+bool as_fine(const PoseTask& task, const PoseTask& own) {
+  return task.x.step() <= own.x.step() + 1e-12 && task.y.step() <= own.y.step() + 1e-12 &&
+         task.redundancy.step() <= own.redundancy.step() + 1e-12;
+}
+
+// Points of the grid that are not worse than their neighbours, of each arm; the best first, and not close
+// together.
+std::vector<ScanBest> starts_of(const PlaneScan& scan) {
+  std::vector<ScanBest> starts;
+  const double apart = 0.08 * std::max(scan.task.x.to - scan.task.x.from, scan.task.y.to - scan.task.y.from);
+  for (std::size_t arm = 0; arm < kArms; ++arm) {
+    std::vector<ScanBest> peaks;
+    for (int j = 0; j < scan.task.y.count; ++j) {
+      for (int i = 0; i < scan.task.x.count; ++i) {
+        const auto& here = scan.at(i, j).arms[arm];
+        if (!here) continue;
+        bool peak = true;
+        for (int dj = -1; dj <= 1 && peak; ++dj) {
+          for (int di = -1; di <= 1 && peak; ++di) {
+            if (i + di < 0 || j + dj < 0 || i + di >= scan.task.x.count || j + dj >= scan.task.y.count)
+              continue;
+            const auto& neighbour = scan.at(i + di, j + dj).arms[arm];
+            peak = !neighbour || neighbour->merit <= here->merit;
+          }
+        }
+        if (peak) peaks.push_back(*here);
+      }
+    }
+    std::stable_sort(peaks.begin(), peaks.end(),
+                     [](const ScanBest& a, const ScanBest& b) { return a.merit > b.merit; });
+    std::vector<ScanBest> chosen;
+    for (const ScanBest& peak : peaks) {
+      const bool close = std::any_of(chosen.begin(), chosen.end(), [&](const ScanBest& other) {
+        return std::hypot(peak.at.x - other.at.x, peak.at.y - other.at.y) < apart;
+      });
+      if (!close) chosen.push_back(peak);
+      if (chosen.size() == kMostStartsPerArm) break;
+    }
+    starts.insert(starts.end(), chosen.begin(), chosen.end());
+  }
+  return starts;
+}
+
+// Perhaps a sliver between the samples: from where the limits are missed least.
+std::vector<ScanBest> starts_outside(const PlaneScan& scan) {
+  std::vector<ScanBest> starts;
+  for (const PointScan& point : scan.points) {
+    if (!std::isfinite(point.best_limit_margin_rad)) continue;
+    starts.push_back(point.least_outside);
+    starts.back().merit = point.best_limit_margin_rad;
+  }
+  std::stable_sort(starts.begin(), starts.end(),
+                   [](const ScanBest& a, const ScanBest& b) { return a.merit > b.merit; });
+  starts.resize(std::min<std::size_t>(starts.size(), kMostStartsPerArm));
+  return starts;
+}
+
+// Refinement over those of x, y and redundancy that are free and matter.
+class Refinement {
+ public:
+  explicit Refinement(const PoseScanner& scanner) : scanner_(scanner), task_(scanner.task()) {}
+
+  std::optional<FoundPose> from(const ScanBest& start, double radius) const {
+    std::vector<Freedom> free;
+    if (!task_.x.is_point()) free.push_back({&PlanePoint::x, task_.x.from, task_.x.to});
+    if (!task_.y.is_point()) free.push_back({&PlanePoint::y, task_.y.from, task_.y.to});
+    if (!task_.redundancy.is_point() && scanner_.redundancy_matters()) {
+      const bool open = task_.full_turn();
+      free.push_back(
+          {&PlanePoint::redundancy, open ? -100 : task_.redundancy.from, open ? 100 : task_.redundancy.to});
+    }
+    const auto n = static_cast<Eigen::Index>(free.size());
+    Variables first(n), lower(n), upper(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      first[i] = start.at.*free[i].coordinate;
+      lower[i] = free[i].lower;
+      upper[i] = free[i].upper;
+    }
+    const auto point = [&](const Variables& x) {
+      PlanePoint at = start.at;
+      for (Eigen::Index i = 0; i < n; ++i) at.*free[i].coordinate = x[i];
+      return at;
+    };
+    const auto found = constrained_maximum([&](const Variables& x) { return value(point(x)); }, first, lower,
+                                           upper, radius, kDifference);
+    if (!found) return std::nullopt;
+    PlanePoint at = point(found->point);
+    if (task_.full_turn()) at.redundancy = std::remainder(at.redundancy, kTwoPi);
+    const auto evaluation = scanner_.evaluate(at);
+    if (!evaluation) return std::nullopt;
+    return FoundPose{at, evaluation->angles, evaluation->score};
+  }
+
+ private:
+  static constexpr double kDifference = 1e-4;  // m and rad
+
+  struct Freedom {
+    double PlanePoint::*coordinate;
+    double lower, upper;
+  };
+
+  std::optional<ConstrainedValue> value(const PlanePoint& at) const {
+    const auto evaluation = scanner_.evaluate(at);
+    if (!evaluation || !(evaluation->score > 0)) return std::nullopt;
+    ConstrainedValue result;
+    const double logarithm = std::log(evaluation->score);
+    result.value = task_.stiffness.larger_is_better() ? logarithm : -logarithm;
+    const bool away = task_.singularity_margin > 0;
+    result.constraints.resize(kJoints + (away ? 1 : 0));
+    for (int j = 0; j < kJoints; ++j) {
+      const Joint& joint = scanner_.robot().joints[j];
+      result.constraints[j] = joint.half_range_rad() - std::abs(evaluation->angles[j] - joint.middle_rad()) -
+                              task_.limit_margin_rad;
+    }
+    if (away) {
+      result.constraints[kJoints] =
+          singularity_margin(robot_pose(scanner_.robot(), evaluation->angles)) - task_.singularity_margin;
+    }
+    return result;
+  }
+
+  const PoseScanner& scanner_;
+  const PoseTask& task_;
+};
+
+// What may be turned without changing the score.
+struct Symmetry {
+  bool base_turn = false, tool_turn = false;
+};
+
+Symmetry symmetry_of(const PoseScanner& scanner) {
+  constexpr double kParallel = 1e-12;
+  const PoseTask& task = scanner.task();
+  const Robot& robot = scanner.robot();
+  const Eigen::Vector3d axis1(0, -robot.joints[0].sin_alpha(), robot.joints[0].cos_alpha());
+  const auto along_axis1 = [&](const Eigen::Vector3d& v) {
+    return v.cross(axis1).norm() <= kParallel * v.norm();
+  };
+  Symmetry symmetry;
+  symmetry.tool_turn = !scanner.redundancy_matters() && !task.redundancy.is_point();
+  const bool load_turns = task.stiffness.index != StiffnessIndex::kDeflection ||
+                          task.stiffness.force_in_tool || along_axis1(*task.stiffness.force_n);
+  symmetry.base_turn = load_turns && along_axis1(task.tool_axis) &&
+                       along_axis1(task.plane.x_axis.cross(task.plane.y_axis)) && !task.x.is_point() &&
+                       !task.y.is_point() && (task.full_turn() || symmetry.tool_turn);
+  return symmetry;
+}
+
+bool inside(const Range& range, double value) {
+  return value >= range.from - 1e-9 && value <= range.to + 1e-9;
+}
+
+// The member of the families that a symmetry makes whose free joints stand nearest to 0, if the intervals
+// allow it.
+FoundPose centred(const PoseScanner& scanner, const FoundPose& found, const Symmetry& symmetry) {
+  const PoseTask& task = scanner.task();
+  FoundPose turned = found;
+  for (const int j : {0, 5}) {
+    if (!(j == 0 ? symmetry.base_turn : symmetry.tool_turn && task.full_turn())) continue;
+    const Joint& joint = scanner.robot().joints[j];
+    turned.angles[j] =
+        std::clamp(0.0, joint.min_rad + task.limit_margin_rad, joint.max_rad - task.limit_margin_rad);
+  }
+  const Eigen::Isometry3d tool = robot_pose(scanner.robot(), turned.angles).tool;
+  const Eigen::Vector3d offset = tool.translation() - task.plane.origin;
+  turned.at.x = offset.dot(task.plane.x_axis);
+  turned.at.y = offset.dot(task.plane.y_axis);
+  if (std::abs(turned.at.x) < 1e-12) turned.at.x = 0;
+  if (std::abs(turned.at.y) < 1e-12) turned.at.y = 0;
+  if (task.full_turn()) turned.at.redundancy = redundancy_angle(tool);
+  return inside(task.x, turned.at.x) && inside(task.y, turned.at.y) ? turned : found;
+}
+
+// The same pose, up to joints that a symmetry leaves free.
+bool same_pose(const FoundPose& a, const FoundPose& b, const Symmetry& symmetry) {
+  for (int j = 0; j < kJoints; ++j) {
+    if ((j == 0 && symmetry.base_turn) || (j == 5 && symmetry.tool_turn)) continue;
+    if (std::abs(std::remainder(a.angles[j] - b.angles[j], kTwoPi)) > kSameAngle) return false;
+  }
+  return true;
+}
+
+bool equal_scores(double a, double b) { return std::abs(a - b) <= kEqualScore * std::abs(b); }
+
+// The same tool frame with the wrist the other way round, where the limits allow it.
+std::optional<FoundPose> flipped(const PoseScanner& scanner, const FoundPose& found) {
+  FoundPose other = found;
+  other.at.branch = (found.at.branch + kArms) % kBranches;
+  const auto evaluation = scanner.evaluate(other.at);
+  if (!evaluation) return std::nullopt;
+  other.angles = evaluation->angles;
+  if (limit_margin_rad(scanner.robot(), other.angles) < scanner.task().limit_margin_rad) return std::nullopt;
+  return other;
+}
+
+[[noreturn]] void nothing_allowed(const PoseScanner& scanner, const PlaneScan& scan) {
+  const Robot& robot = scanner.robot();
+  const PoseTask& task = scanner.task();
+  double margin = -std::numeric_limits<double>::infinity();
+  PlanePoint at;
+  for (const PointScan& point : scan.points) {
+    if (point.best_limit_margin_rad <= margin) continue;
+    margin = point.best_limit_margin_rad;
+    at = point.least_outside.at;
+  }
+  const auto evaluation = std::isfinite(margin) ? scanner.evaluate(at) : std::nullopt;
+  if (!evaluation) {
+    throw NoAnswer("no reachable pose: nothing of the plane is within the arm's reach with this tool axis");
+  }
+  int worst = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (int j = 0; j < kJoints; ++j) {
+    const Joint& joint = robot.joints[j];
+    const double left = joint.half_range_rad() - std::abs(evaluation->angles[j] - joint.middle_rad());
+    if (left < least) {
+      least = left;
+      worst = j;
+    }
+  }
+  const auto degrees = [](double rad) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f", degrees_from_radians(rad));
+    return std::string(text);
+  };
+  if (least < task.limit_margin_rad) {
+    throw NoAnswer("no reachable pose: at best joint " + robot.joints[worst].name + " would be " +
+                   (least < 0 ? degrees(-least) + " degrees outside its limits"
+                              : degrees(least) + " degrees from a limit, nearer than the limit margin"));
+  }
+  throw NoAnswer(
+      "no reachable pose: all that the limits allow is nearer to a singularity than the singularity margin");
+}
+
+}  // namespace
+
+PlaneScan scan_plane(const Robot& robot, const PoseTask& task, int threads, const Progress& progress) {
+  PlaneScan scan{task, {}};
+  scan.points.resize(static_cast<std::size_t>(task.x.count) * task.y.count);
+  const PoseScanner scanner(robot, task);
+  parallel_for(
+      static_cast<std::size_t>(task.y.count), threads,
+      [&](std::size_t j) {
+        for (int i = 0; i < task.x.count; ++i) {
+          scan.points[j * task.x.count + i] = scanner.scan(task.x.at(i), task.y.at(static_cast<int>(j)));
+        }
+      },
+      progress);
+  return scan;
+}
+
+PoseSearch search_poses(const Robot& robot, const PoseTask& task, int most_alternatives, int threads,
+                        const Progress& progress, const PlaneScan* known) {
+  const PoseTask own_task = with_own_grid(task);
+  PlaneScan own;
+  if (!known || !as_fine(known->task, own_task)) {
+    own = scan_plane(robot, own_task, threads, progress);
+    known = &own;
+  }
+  std::vector<ScanBest> starts = starts_of(*known);
+  if (starts.empty()) starts = starts_outside(*known);
+
+  const PoseScanner scanner(robot, task);
+  const Refinement refinement(scanner);
+  const double radius =
+      std::max({known->task.x.step(), known->task.y.step(), known->task.redundancy.step(), 1e-3});
+  std::vector<std::optional<FoundPose>> refined(starts.size());
+  parallel_for(starts.size(), threads,
+               [&](std::size_t i) { refined[i] = refinement.from(starts[i], radius); });
+
+  const Symmetry symmetry = symmetry_of(scanner);
+  std::vector<FoundPose> found;
+  for (const auto& pose : refined) {
+    if (!pose) continue;
+    // Of a wrist and its flip, the one whose joint 4 is turned less.
+    found.push_back(*pose);
+    if (const auto other = flipped(scanner, *pose)) {
+      if (std::abs(other->angles[3]) < std::abs(pose->angles[3]) - 1e-6) found.back() = *other;
+    }
+    if (symmetry.base_turn || symmetry.tool_turn) found.back() = centred(scanner, found.back(), symmetry);
+  }
+  if (found.empty()) nothing_allowed(scanner, *known);
+  const bool larger = task.stiffness.larger_is_better();
+  std::stable_sort(found.begin(), found.end(), [&](const FoundPose& a, const FoundPose& b) {
+    return larger ? a.score > b.score : a.score < b.score;
+  });
+
+  PoseSearch result;
+  // Among equals the one with the largest margin to the limits leads, then the one that is turned least, then
+  // the one at the larger y, so that rounding does not choose.
+  auto best = found.begin();
+  const auto leads = [&](const FoundPose& a, const FoundPose& b) {
+    const double margin = limit_margin_rad(robot, a.angles) - limit_margin_rad(robot, b.angles);
+    if (std::abs(margin) > 1e-6) return margin > 0;
+    const double turn = a.angles.norm() - b.angles.norm();
+    return std::abs(turn) > 1e-6 ? turn < 0 : a.at.y > b.at.y;
+  };
+  for (auto other = found.begin(); other != found.end() && equal_scores(other->score, found.front().score);
+       ++other) {
+    if (leads(*other, *best)) best = other;
+  }
+  std::rotate(found.begin(), best, best + 1);
+  result.best = found.front();
+  result.redundancy_matters = scanner.redundancy_matters();
+
+  std::vector<FoundPose> listed{result.best};
+  const double m = task.limit_margin_rad;
+  if (symmetry.base_turn) {
+    result.families.push_back(
+        {PoseFamily::Kind::kBaseTurn, robot.joints[0].min_rad + m, robot.joints[0].max_rad - m});
+  }
+  if (symmetry.tool_turn) {
+    result.families.push_back(
+        {PoseFamily::Kind::kToolTurn, robot.joints[5].min_rad + m, robot.joints[5].max_rad - m});
+  }
+  if (const auto other = flipped(scanner, result.best)) {
+    result.families.push_back({PoseFamily::Kind::kFlippedWrist, 0, 0, other->angles});
+    listed.push_back(*other);
+  }
+  for (const FoundPose& pose : found) {
+    const bool seen = std::any_of(listed.begin(), listed.end(),
+                                  [&](const FoundPose& other) { return same_pose(pose, other, symmetry); });
+    if (seen) continue;
+    listed.push_back(pose);
+    if (equal_scores(pose.score, result.best.score)) {
+      result.families.push_back({PoseFamily::Kind::kEqual, 0, 0, pose.angles});
+      continue;
+    }
+    const bool repeats =
+        std::any_of(result.alternatives.begin(), result.alternatives.end(), [&](const auto& other) {
+          return equal_scores(pose.score, other.score) && same_pose(pose, other, {symmetry.base_turn, true});
+        });
+    if (!repeats && static_cast<int>(result.alternatives.size()) < most_alternatives) {
+      result.alternatives.push_back(pose);
+    }
+  }
+  return result;
+}
+
+PoseMap pose_map(const Robot& robot, const PlaneScan& scan) {
+  const PoseScanner scanner(robot, scan.task);
+  const Eigen::Index rows = scan.task.y.count, columns = scan.task.x.count;
+  constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+  PoseMap map{Eigen::MatrixXd::Constant(rows, columns, kNowhere),
+              Eigen::MatrixXd::Constant(rows, columns, kNowhere),
+              Eigen::MatrixXi::Constant(rows, columns, -1),
+              {}};
+  map.stiffness.fill(map.score);
+  for (Eigen::Index j = 0; j < rows; ++j) {
+    for (Eigen::Index i = 0; i < columns; ++i) {
+      const auto best = scan.at(static_cast<int>(i), static_cast<int>(j)).best();
+      if (!best) continue;
+      const auto evaluation = scanner.evaluate(best->at);
+      map.score(j, i) = evaluation->score;
+      map.redundancy_rad(j, i) = best->at.redundancy;
+      map.branch(j, i) = best->at.branch;
+      for (int d = 0; d < 3; ++d) {
+        map.stiffness[static_cast<std::size_t>(d)](j, i) =
+            directional_stiffness(evaluation->compliance, evaluation->tool.linear().col(d));
+      }
+    }
+  }
+  return map;
+}
+
+}  // namespace stablecut

@@ -1,0 +1,51 @@
+// The question that a pose search answers: where the tool may stand, how, and what counts as stiff.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "base/range.h"
+#include "robot/compliance.h"
+#include "robot/robot.h"
+
+namespace stablecut {
+
+/// A plane in the base frame (m): the point origin + u x_axis + v y_axis, axes of length 1 at right angles.
+struct Plane {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  Eigen::Vector3d x_axis = Eigen::Vector3d::UnitX();
+  Eigen::Vector3d y_axis = Eigen::Vector3d::UnitY();
+
+  Eigen::Vector3d at(double u, double v) const { return origin + u * x_axis + v * y_axis; }
+};
+
+struct PoseTask {
+  Plane plane;
+  Range x, y;                                             ///< of the tool point in the plane, m
+  Eigen::Vector3d tool_axis = -Eigen::Vector3d::UnitZ();  ///< direction of the tool's z, base frame, length 1
+  Range redundancy;  ///< turn about the tool axis, rad (redundancy_angle())
+  StiffnessTask stiffness;
+  JointAngles joint_compliance = JointAngles::Zero();  ///< rad/(N m)
+  double limit_margin_rad = 0;                         ///< to keep from every joint limit
+  double singularity_margin = 0;                       ///< least singular value of J to keep
+
+  /// True when the redundancy interval closes to the full turn.
+  bool full_turn() const;
+};
+
+/// A point of the search space.
+struct PlanePoint {
+  double x = 0, y = 0;    ///< in the plane, m
+  double redundancy = 0;  ///< rad
+  int branch = 0;
+};
+
+/// Bounds in the plane's coordinates (m) of what the tool point can reach with the tool axis as it is, limits
+/// aside: not less than that, perhaps more. Nothing when the plane is out of reach.
+struct PlaneReach {
+  Range x, y;
+};
+std::optional<PlaneReach> plane_reach(const Robot& robot, const Plane& plane,
+                                      const Eigen::Vector3d& tool_axis);
+
+}  // namespace stablecut

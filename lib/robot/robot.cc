@@ -1,0 +1,43 @@
+#include "robot/robot.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.h"
+
+namespace stablecut {
+
+void Joint::set_alpha(double rad) {
+  const auto exact = [](double value) {
+    return std::abs(value - std::nearbyint(value)) < 1e-14 ? std::nearbyint(value) : value;
+  };
+  alpha_rad_ = rad;
+  cos_alpha_ = exact(std::cos(rad));
+  sin_alpha_ = exact(std::sin(rad));
+}
+
+JointAngles most_central_copies(const Robot& robot, const JointAngles& angles) {
+  JointAngles moved = angles;
+  for (int j = 0; j < kJoints; ++j) {
+    const double middle = robot.joints[j].middle_rad();
+    if (std::isfinite(middle)) moved[j] += kTwoPi * std::nearbyint((middle - angles[j]) / kTwoPi);
+  }
+  return moved;
+}
+
+double limit_margin_rad(const Robot& robot, const JointAngles& angles) {
+  double margin = std::numeric_limits<double>::infinity();
+  for (int j = 0; j < kJoints; ++j) {
+    margin = std::min({margin, angles[j] - robot.joints[j].min_rad, robot.joints[j].max_rad - angles[j]});
+  }
+  return margin;
+}
+
+ToolAlignment tool_alignment(const Robot& robot) {
+  constexpr double kTolerance = 1e-9;
+  const Eigen::Isometry3d tool = robot.tool_in_frame6();
+  return {tool.translation().head<2>().norm() <= kTolerance,
+          tool.linear().col(2).head<2>().norm() <= kTolerance};
+}
+
+}  // namespace stablecut

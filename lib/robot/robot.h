@@ -1,0 +1,67 @@
+// A serial robot with six turning joints, in modified Denavit-Hartenberg form (Yi et al., eq. 1, corrected).
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <limits>
+#include <string>
+
+namespace stablecut {
+
+inline constexpr int kJoints = 6;
+
+/// Controller angles A1..A6, rad. Not DH angles: theta = sign * angle + offset.
+using JointAngles = Eigen::Matrix<double, kJoints, 1>;
+
+struct Joint {
+  std::string name;
+  double a_m = 0;  ///< of link i-1: distance between axes i-1 and i, along x of frame i-1
+  double d_m = 0;  ///< along axis i
+  double theta_sign = 1;
+  double theta_offset_rad = 0;
+  double min_rad = -std::numeric_limits<double>::infinity();  ///< controller angle
+  double max_rad = std::numeric_limits<double>::infinity();
+
+  /// Of link i-1: the turn between axes i-1 and i about x of frame i-1; right angles are taken exactly.
+  void set_alpha(double rad);
+  double alpha_rad() const { return alpha_rad_; }
+  double cos_alpha() const { return cos_alpha_; }
+  double sin_alpha() const { return sin_alpha_; }
+
+  double theta_of(double angle_rad) const { return theta_sign * angle_rad + theta_offset_rad; }
+  double middle_rad() const { return 0.5 * (min_rad + max_rad); }
+  double half_range_rad() const { return 0.5 * (max_rad - min_rad); }
+
+ private:
+  double alpha_rad_ = 0, cos_alpha_ = 1, sin_alpha_ = 0;
+};
+
+struct Robot {
+  std::string name;
+  std::array<Joint, kJoints> joints;
+  Eigen::Isometry3d flange = Eigen::Isometry3d::Identity();  ///< in frame 6
+  Eigen::Isometry3d tool =
+      Eigen::Isometry3d::Identity();  ///< in the flange frame; origin: tool point, z: axis
+
+  Eigen::Isometry3d tool_in_frame6() const { return flange * tool; }
+};
+
+/// Each angle moved by whole turns to its copy nearest the middle of its range, which is the copy with the
+/// largest margin to the limits.
+JointAngles most_central_copies(const Robot& robot, const JointAngles& angles);
+
+/// The least distance of any joint to its nearer limit, rad; negative outside.
+double limit_margin_rad(const Robot& robot, const JointAngles& angles);
+
+/// What the tool point and axis have to do with joint 6.
+struct ToolAlignment {
+  bool point_on_axis = false;  ///< the tool point lies on axis 6: joint 6 cannot move it
+  bool axis_parallel = false;  ///< the tool axis is parallel to axis 6: joint 6 turns the tool about it
+  bool coaxial() const { return point_on_axis && axis_parallel; }
+};
+
+/// Within 1e-9 m and 1e-9 rad.
+ToolAlignment tool_alignment(const Robot& robot);
+
+}  // namespace stablecut
