@@ -194,7 +194,7 @@ std::optional<ConstrainedMaximum> constrained_maximum(const ConstrainedFunction&
                                                       const Variables& start, const Variables& lower,
                                                       const Variables& upper, double radius,
                                                       double difference) {
-  const auto first = allowed_point(function, start, lower, upper, difference);
+  const auto first = allowed_point(function, start.cwiseMax(lower).cwiseMin(upper), lower, upper, difference);
   if (!first) return std::nullopt;
   Variables x = *first;
   auto here = *function(x);

@@ -95,7 +95,29 @@ class Refinement {
  public:
   explicit Refinement(const PoseScanner& scanner) : scanner_(scanner), task_(scanner.task()) {}
 
-  std::optional<FoundPose> from(const ScanBest& start, double radius) const {
+  // The weakest principal stiffness has a ridge where two are equal, on which a smooth model fails. There a
+  // power mean of the compliances stands for the largest of them, sharper and sharper, each from the best
+  // point so far.
+  std::optional<FoundPose> from(const PlanePoint& start, double radius) const {
+    auto best = from(start, radius, 0);
+    if (!best || task_.stiffness.index != StiffnessIndex::kWeakest) return best;
+    for (const double power : {30.0, 300.0, 3000.0}) {
+      const auto smoothed = from(best->at, radius, power);
+      if (smoothed && smoothed->score > best->score) best = smoothed;
+      radius *= 0.3;
+    }
+    return best;
+  }
+
+ private:
+  static constexpr double kDifference = 1e-4;  // m and rad
+
+  struct Freedom {
+    double PlanePoint::*coordinate;
+    double lower, upper;
+  };
+
+  std::optional<FoundPose> from(const PlanePoint& start, double radius, double power) const {
     std::vector<Freedom> free;
     if (!task_.x.is_point()) free.push_back({&PlanePoint::x, task_.x.from, task_.x.to});
     if (!task_.y.is_point()) free.push_back({&PlanePoint::y, task_.y.from, task_.y.to});
@@ -107,17 +129,17 @@ class Refinement {
     const auto n = static_cast<Eigen::Index>(free.size());
     Variables first(n), lower(n), upper(n);
     for (Eigen::Index i = 0; i < n; ++i) {
-      first[i] = start.at.*free[i].coordinate;
+      first[i] = start.*free[i].coordinate;
       lower[i] = free[i].lower;
       upper[i] = free[i].upper;
     }
     const auto point = [&](const Variables& x) {
-      PlanePoint at = start.at;
+      PlanePoint at = start;
       for (Eigen::Index i = 0; i < n; ++i) at.*free[i].coordinate = x[i];
       return at;
     };
-    const auto found = constrained_maximum([&](const Variables& x) { return value(point(x)); }, first, lower,
-                                           upper, radius, kDifference);
+    const auto found = constrained_maximum([&](const Variables& x) { return value(point(x), power); }, first,
+                                           lower, upper, radius, kDifference);
     if (!found) return std::nullopt;
     PlanePoint at = point(found->point);
     if (task_.full_turn()) at.redundancy = std::remainder(at.redundancy, kTwoPi);
@@ -126,19 +148,15 @@ class Refinement {
     return FoundPose{at, evaluation->angles, evaluation->score};
   }
 
- private:
-  static constexpr double kDifference = 1e-4;  // m and rad
-
-  struct Freedom {
-    double PlanePoint::*coordinate;
-    double lower, upper;
-  };
-
-  std::optional<ConstrainedValue> value(const PlanePoint& at) const {
+  std::optional<ConstrainedValue> value(const PlanePoint& at, double power) const {
     const auto evaluation = scanner_.evaluate(at);
     if (!evaluation || !(evaluation->score > 0)) return std::nullopt;
     ConstrainedValue result;
-    const double logarithm = std::log(evaluation->score);
+    double logarithm = std::log(evaluation->score);
+    if (power > 0) {
+      const Eigen::Vector3d compliances = principal_compliances(evaluation->compliance);
+      logarithm -= std::log((compliances / compliances[0]).cwiseMax(0.0).array().pow(power).sum()) / power;
+    }
     result.value = task_.stiffness.larger_is_better() ? logarithm : -logarithm;
     const bool away = task_.singularity_margin > 0;
     result.constraints.resize(kJoints + (away ? 1 : 0));
@@ -300,7 +318,7 @@ PoseSearch search_poses(const Robot& robot, const PoseTask& task, int most_alter
       std::max({known->task.x.step(), known->task.y.step(), known->task.redundancy.step(), 1e-3});
   std::vector<std::optional<FoundPose>> refined(starts.size());
   parallel_for(starts.size(), threads,
-               [&](std::size_t i) { refined[i] = refinement.from(starts[i], radius); });
+               [&](std::size_t i) { refined[i] = refinement.from(starts[i].at, radius); });
 
   const Symmetry symmetry = symmetry_of(scanner);
   std::vector<FoundPose> found;

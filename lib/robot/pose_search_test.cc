@@ -1,0 +1,241 @@
+#include "robot/pose_search.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "base/error.h"
+#include "robot/robot_fixtures_test.h"
+
+using namespace stablecut;
+using namespace stablecut::fixtures;
+
+namespace {
+
+double radius_of(const FoundPose& pose) { return std::hypot(pose.at.x, pose.at.y); }
+
+bool has_family(const PoseSearch& search, PoseFamily::Kind kind) {
+  return std::any_of(search.families.begin(), search.families.end(),
+                     [&](const auto& f) { return f.kind == kind; });
+}
+
+// The pose is what the search says: angles, point, axis, score, limits.
+void check_pose(const Robot& robot, const PoseTask& task, const FoundPose& found) {
+  const RobotPose pose = robot_pose(robot, found.angles);
+  CHECK((pose.tool.translation() - task.plane.at(found.at.x, found.at.y)).norm() < 1e-11);
+  CHECK((pose.tool.linear().col(2) - task.tool_axis).norm() < 1e-11);
+  CHECK(std::abs(std::remainder(redundancy_angle(pose.tool) - found.at.redundancy, kTwoPi)) < 1e-9);
+  CHECK(limit_margin_rad(robot, found.angles) >= task.limit_margin_rad);
+  const Eigen::Matrix3d compliance = translational_compliance(pose, task.joint_compliance);
+  CHECK(stiffness_score(compliance, pose.tool.linear(), task.stiffness) ==
+        Approx(found.score).epsilon(1e-10));
+}
+
+}  // namespace
+
+TEST_CASE("tool-down optima of the KR360, to 0.1 %, on limits and inside") {
+  // Independent code: 197.3 um and A2 at its limit for every index at 1.6 m; 1.2 m as in the rows.
+  struct Case {
+    double height;
+    StiffnessIndex index;
+    double score, radius, joint2_deg, joint3_deg;  // NaN: not stated
+  };
+  constexpr double kFree = std::numeric_limits<double>::quiet_NaN();
+  const Robot robot = kr360();
+  for (const Case& c : {Case{1.6, StiffnessIndex::kDeflection, 197.3e-6, 0.689, -130, kFree},
+                        Case{1.6, StiffnessIndex::kCombined, kFree, 0.689, -130, kFree},
+                        Case{1.6, StiffnessIndex::kWeakest, kFree, 0.689, -130, kFree},
+                        Case{1.6, StiffnessIndex::kAxial, kFree, 0.689, -130, kFree},
+                        Case{1.2, StiffnessIndex::kDeflection, 211.1e-6, 0.898, -110.8, kFree},
+                        Case{1.2, StiffnessIndex::kWeakest, 1.543e6, 0.773, kFree, 144},
+                        Case{1.2, StiffnessIndex::kAxial, 2.788e6, 0.898, kFree, kFree},
+                        Case{1.2, StiffnessIndex::kCombined, 6.381e6, 0.773, kFree, 144}}) {
+    const PoseTask task = tool_down(robot, c.height, c.index, 0);
+    const PoseSearch search = search_poses(robot, task, 5, 1);
+    INFO("height " << c.height << ", index " << static_cast<int>(c.index) << ", score " << search.best.score);
+    check_pose(robot, task, search.best);
+    if (!std::isnan(c.score)) CHECK(search.best.score == Approx(c.score).epsilon(1e-3));
+    CHECK(radius_of(search.best) == Approx(c.radius).margin(0.001));
+    if (!std::isnan(c.joint2_deg))
+      CHECK(degrees_from_radians(search.best.angles[1]) == Approx(c.joint2_deg).margin(0.1));
+    if (!std::isnan(c.joint3_deg))
+      CHECK(degrees_from_radians(search.best.angles[2]) == Approx(c.joint3_deg).margin(1e-6));
+    CHECK(has_family(search, PoseFamily::Kind::kBaseTurn));
+    CHECK(has_family(search, PoseFamily::Kind::kFlippedWrist));
+    CHECK(search.redundancy_matters == (c.index == StiffnessIndex::kCombined));
+    CHECK(has_family(search, PoseFamily::Kind::kToolTurn) == !search.redundancy_matters);
+    for (const FoundPose& other : search.alternatives) {
+      check_pose(robot, task, other);
+      CHECK((task.stiffness.larger_is_better() ? other.score < search.best.score
+                                               : other.score > search.best.score));
+    }
+  }
+}
+
+TEST_CASE("a load that is not vertical breaks the circle into a mirrored pair") {
+  const Robot robot = kr360();
+  PoseTask task = tool_down(robot, 1.6, StiffnessIndex::kDeflection, 0);
+  task.stiffness.force_n = Eigen::Vector3d(400, 0, -400);
+  for (const int count : {64, 7, 2}) {  // whatever the user's samples are
+    task.x.count = task.y.count = count;
+    const PoseSearch search = search_poses(robot, task, 5, 1);
+    check_pose(robot, task, search.best);
+    CHECK(search.best.score == Approx(117.5e-6).epsilon(1e-3));
+    CHECK(search.best.at.x == Approx(0.592).margin(0.002));
+    CHECK(std::abs(search.best.at.y) == Approx(0.353).margin(0.002));
+    CHECK_FALSE(has_family(search, PoseFamily::Kind::kBaseTurn));
+    REQUIRE(has_family(search, PoseFamily::Kind::kEqual));
+    for (const PoseFamily& family : search.families) {
+      if (family.kind != PoseFamily::Kind::kEqual) continue;
+      CHECK(robot_pose(robot, family.angles).tool.translation().y() ==
+            Approx(-search.best.at.y).margin(1e-4));
+    }
+  }
+}
+
+TEST_CASE("the limit margin is kept, and the optimum lies on it") {
+  const Robot robot = kr360();
+  const PoseTask task = tool_down(robot, 1.6, StiffnessIndex::kDeflection, 5);
+  const PoseSearch search = search_poses(robot, task, 0, 1);
+  check_pose(robot, task, search.best);
+  CHECK(degrees_from_radians(search.best.angles[1]) == Approx(-125).margin(1e-6));
+  CHECK(search.alternatives.empty());
+}
+
+TEST_CASE("an offset tool: the redundancy angle matters by what brute force says") {
+  const Robot robot = with_tool_offset(kr360(), 0.2);
+  PoseTask task = tool_down(robot, 1.6, StiffnessIndex::kWeakest, 2);
+  task.x = {1.5, 1.5, 1};
+  task.y = {0.3, 0.3, 1};
+  double best = 0, worst = 1e99;
+  const InverseKinematics inverse(robot);
+  for (int i = 0; i < 3600; ++i) {
+    double best_here = 0;
+    const double turn = kTwoPi * i / 3600;
+    for (const auto& solution : inverse.solve(tool_frame({1.5, 0.3, 1.6}, -Eigen::Vector3d::UnitZ(), turn))) {
+      const RobotPose pose = robot_pose(robot, solution.angles);
+      if (solution.limit_margin_rad < task.limit_margin_rad || singularity_margin(pose) < 0.01) continue;
+      best_here = std::max(
+          best_here, 1 / principal_compliances(translational_compliance(pose, task.joint_compliance))[0]);
+    }
+    best = std::max(best, best_here);
+    if (best_here > 0) worst = std::min(worst, best_here);
+  }
+  const PoseSearch search = search_poses(robot, task, 5, 1);
+  CHECK(search.redundancy_matters);
+  CHECK(search.best.score == Approx(best).epsilon(1e-4));
+  CHECK(search.best.score >= best * (1 - 1e-9));
+  CHECK(best / worst > 1.2);
+  for (const double turn : {-2.0, 0.0, 1.0}) {
+    PoseTask fixed = task;
+    fixed.redundancy = {turn, turn, 1};
+    CHECK(search_poses(robot, fixed, 0, 1).best.score <= search.best.score);
+  }
+}
+
+TEST_CASE("random tasks: the search is never beaten by random poses") {
+  std::mt19937_64 generator(11);
+  for (int n = 0; n < 12; ++n) {
+    Robot robot = with_tool_offset(kr360(), n % 2 == 0 ? 0 : uniform(generator, 0.05, 0.3));
+    if (n % 3 == 0) {
+      robot.tool.linear() =
+          Eigen::AngleAxisd(uniform(generator, -1.5, 1.5), Eigen::Vector3d::UnitY()).matrix();
+    }
+    PoseTask task = tool_down(robot, uniform(generator, 0.5, 2.2), static_cast<StiffnessIndex>(n % 4), 2);
+    task.stiffness.force_n = Eigen::Vector3d(uniform(generator, -500, 500), uniform(generator, -500, 500),
+                                             uniform(generator, -500, 500));
+    task.stiffness.force_in_tool = n % 5 == 0;
+    if (n % 3 == 1)
+      task.tool_axis = Eigen::Vector3d(uniform(generator, -1, 1), uniform(generator, -1, 1), -1).normalized();
+    if (n % 4 == 3) task.redundancy = {-0.5, 1, 5};
+    task.x.count = task.y.count = 5;
+    const PoseSearch search = search_poses(robot, task, 5, 2);
+    INFO("task " << n << ", score " << search.best.score);
+    check_pose(robot, task, search.best);
+    const InverseKinematics inverse(robot);
+    double best = task.stiffness.larger_is_better() ? 0 : 1e9;
+    for (int i = 0; i < 20000; ++i) {
+      // Half of them near the optimum found.
+      const double spread = i % 2 == 0 ? 1 : 0.02;
+      const auto draw = [&](const Range& range, double at) {
+        const double value =
+            spread == 1 ? uniform(generator, range.from, range.to) : at + spread * normal(generator);
+        return std::clamp(value, range.from, range.to);
+      };
+      const double x = draw(task.x, search.best.at.x), y = draw(task.y, search.best.at.y);
+      const double turn = draw(task.redundancy, search.best.at.redundancy);
+      for (const auto& solution : inverse.solve(tool_frame(task.plane.at(x, y), task.tool_axis, turn))) {
+        if (solution.limit_margin_rad < task.limit_margin_rad) continue;
+        const RobotPose pose = robot_pose(robot, solution.angles);
+        if (singularity_margin(pose) < task.singularity_margin) continue;
+        const double score = stiffness_score(translational_compliance(pose, task.joint_compliance),
+                                             pose.tool.linear(), task.stiffness);
+        best = task.stiffness.larger_is_better() ? std::max(best, score) : std::min(best, score);
+      }
+    }
+    if (task.stiffness.larger_is_better())
+      CHECK(search.best.score >= best * (1 - 1e-6));
+    else
+      CHECK(search.best.score <= best * (1 + 1e-6));
+  }
+}
+
+TEST_CASE("straight down at 1.6 m the plane is reached from 0.689 m in front to 2.5735 m") {
+  const Robot robot = kr360();
+  PoseTask task = tool_down(robot, 1.6, StiffnessIndex::kAxial, 0);
+  task.singularity_margin = 0;
+  task.x = {0, 2.7, 2701};
+  task.y = {0, 0, 1};
+  const PlaneScan scan = scan_plane(robot, task, 2);
+  const PoseMap map = pose_map(robot, scan);
+  double nearest = 9, nearest_in_front = 9, farthest = 0;
+  for (int i = 0; i < task.x.count; ++i) {
+    if (map.branch(0, i) < 0) continue;
+    CHECK(std::isfinite(map.score(0, i)));
+    CHECK(map.stiffness[2](0, i) == Approx(map.score(0, i)).epsilon(1e-12));
+    nearest = std::min(nearest, task.x.at(i));
+    if (scan.at(i, 0).arms[0] || scan.at(i, 0).arms[1])
+      nearest_in_front = std::min(nearest_in_front, task.x.at(i));
+    farthest = std::max(farthest, task.x.at(i));
+  }
+  // Stretched, the wrist centre 0.5 m above the plane: exact.
+  const double arm = 1.3 + std::hypot(1.025, 0.055), rise = 1.6 + 0.5 - 1.045;
+  const double outer = 0.5 + std::sqrt(arm * arm - rise * rise);
+  CHECK(outer == Approx(2.5735).margin(1e-4));
+  CHECK(farthest <= outer);
+  CHECK(farthest > outer - 0.0011);
+  CHECK(nearest_in_front == Approx(0.689).margin(0.0011));
+  // Reaching over its back the robot comes nearer.
+  CHECK(nearest == Approx(0.644).margin(0.0011));
+}
+
+TEST_CASE("a map does not depend on the number of threads, and the search is not below it") {
+  const Robot robot = with_tool_offset(kr360(), 0.15);
+  PoseTask task = tool_down(robot, 1.3, StiffnessIndex::kCombined, 2);
+  task.x.count = task.y.count = 25;
+  const PoseMap one = pose_map(robot, scan_plane(robot, task, 1)),
+                two = pose_map(robot, scan_plane(robot, task, 2));
+  CHECK(one.branch == two.branch);
+  double best = 0;
+  for (Eigen::Index k = 0; k < one.score.size(); ++k) {
+    if (one.branch.data()[k] < 0) continue;
+    CHECK(one.score.data()[k] == two.score.data()[k]);
+    best = std::max(best, one.score.data()[k]);
+  }
+  CHECK(search_poses(robot, task, 5, 2).best.score >= best);
+}
+
+TEST_CASE("no pose, and why") {
+  const Robot robot = kr360();
+  PoseTask task = tool_down(robot, 1.6, StiffnessIndex::kCombined, 2);
+  task.x = {3, 3.2, 5};
+  CHECK_THROWS_WITH(search_poses(robot, task, 5, 1), Catch::Contains("reach"));
+  task.x = {0, 0.3, 5};
+  task.y = {-0.1, 0.1, 3};
+  CHECK_THROWS_WITH(search_poses(robot, task, 5, 1), Catch::Contains("joint A") && Catch::Contains("limit"));
+  task = tool_down(robot, 1.6, StiffnessIndex::kCombined, 2);
+  task.singularity_margin = 0.9;
+  CHECK_THROWS_WITH(search_poses(robot, task, 5, 1), Catch::Contains("singularity"));
+  task.stiffness = {StiffnessIndex::kDeflection, {}, false};
+  CHECK_THROWS_AS(search_poses(robot, task, 5, 1), InvalidArgument);
+  CHECK_FALSE(plane_reach(robot, {{0, 0, 9}, {1, 0, 0}, {0, 1, 0}}, task.tool_axis));
+}

@@ -1,0 +1,81 @@
+// Robots and tasks that the robot room's tests share.
+#pragma once
+
+#include <random>
+
+#include "base/units.h"
+#include "robot/pose_task.h"
+#include "robot/robot.h"
+
+namespace stablecut::fixtures {
+
+/// The KUKA KR360 R2830 of Yi et al. with its 210 mm coaxial tool, as in testdata/kr360.json.
+inline Robot kr360() {
+  struct Row {
+    double a_mm, alpha_deg, d_mm, sign, offset_deg, min_deg, max_deg;
+  };
+  constexpr Row kRows[] = {{0, 0, 1045, -1, 0, -185, 185},  {500, 90, 0, -1, 0, -130, 20},
+                           {1300, 0, 0, -1, 90, -100, 144}, {-55, 90, 1025, -1, 0, -350, 350},
+                           {0, -90, 0, -1, 0, -120, 120},   {0, -90, -290, 1, 0, -350, 350}};
+  Robot robot;
+  for (std::size_t j = 0; j < kJoints; ++j) {
+    const Row& row = kRows[j];
+    Joint& joint = robot.joints[j];
+    joint.name = std::string("A") + static_cast<char>('1' + j);
+    joint.a_m = metres_from_mm(row.a_mm);
+    joint.set_alpha(radians_from_degrees(row.alpha_deg));
+    joint.d_m = metres_from_mm(row.d_mm);
+    joint.theta_sign = row.sign;
+    joint.theta_offset_rad = radians_from_degrees(row.offset_deg);
+    joint.min_rad = radians_from_degrees(row.min_deg);
+    joint.max_rad = radians_from_degrees(row.max_deg);
+  }
+  robot.flange.linear() << -1, 0, 0, 0, 1, 0, 0, 0, -1;
+  robot.tool.translation() << 0, 0, 0.21;
+  return robot;
+}
+
+inline Robot with_tool_offset(Robot robot, double x_m) {
+  robot.tool.translation().x() += x_m;
+  return robot;
+}
+
+/// The paper's joint stiffness identified on the working plane (eq. 13), N m/rad.
+inline JointAngles k_theta_2d() {
+  return (JointAngles() << 6.89e6, 4.53e6, 3.40e6, 2.13e6, 1.27e6, 6.32e5).finished();
+}
+
+inline double uniform(std::mt19937_64& generator, double from, double to) {
+  return from + (to - from) * static_cast<double>(generator() >> 11) * 0x1p-53;
+}
+
+inline double normal(std::mt19937_64& generator) {
+  const double radius = std::sqrt(-2 * std::log(uniform(generator, 0, 1) + 0x1p-54));
+  return radius * std::cos(kTwoPi * uniform(generator, 0, 1));
+}
+
+inline JointAngles random_angles(const Robot& robot, std::mt19937_64& generator) {
+  JointAngles angles;
+  for (int j = 0; j < kJoints; ++j)
+    angles[j] = uniform(generator, robot.joints[j].min_rad, robot.joints[j].max_rad);
+  return angles;
+}
+
+/// Tool straight down at a height (m), whole plane, all redundancy angles, 588.6 N down (the paper's 60 kg).
+inline PoseTask tool_down(const Robot& robot, double height_m, StiffnessIndex index,
+                          double limit_margin_deg) {
+  PoseTask task;
+  task.plane.origin.z() = height_m;
+  const auto reach = plane_reach(robot, task.plane, task.tool_axis);
+  task.x = {reach->x.from, reach->x.to, 64};
+  task.y = {reach->y.from, reach->y.to, 64};
+  task.redundancy = {-kPi, kPi - kPi / 36, 72};
+  task.stiffness.index = index;
+  task.stiffness.force_n = Eigen::Vector3d(0, 0, -588.6);
+  task.joint_compliance = k_theta_2d().cwiseInverse();
+  task.limit_margin_rad = radians_from_degrees(limit_margin_deg);
+  task.singularity_margin = 0.01;
+  return task;
+}
+
+}  // namespace stablecut::fixtures
