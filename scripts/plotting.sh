@@ -3,26 +3,30 @@
 
 plot_fail() { echo "$(basename "$0"): $1" >&2; exit "${2:-64}"; }
 
-# Sets input, output ("-": standard output), form (svg, png, dumb), and extra[NAME] for the value options named in
-# $value_options, as in value_options="--fitted". Prints $usage for --help.
+# Sets inputs (at most $most_inputs, 1 by default) and input (the first), output ("-": standard output), form (svg, png,
+# dumb), and extra[NAME] for the options named in $value_options, as in value_options="--fitted", and in $flag_options.
+# Prints $usage for --help.
 plot_options() {
-  input=- output=- form=
+  output=- form=
   declare -gA extra=()
-  local inputs=0
+  declare -ga inputs=()
   while [ $# -gt 0 ]; do
     case "$1" in
       -h|--help) echo "$usage"; exit 0 ;;
       -o|--output) [ $# -ge 2 ] || plot_fail "$1: expected a file"; output=$2; shift 2 ;;
       --terminal) form=dumb; shift ;;
-      -) inputs=$((inputs + 1)); shift ;;
+      -) inputs+=(-); shift ;;
       -*)
+        if [[ " ${flag_options:-} " == *" $1 "* ]]; then extra[$1]=1; shift; continue; fi
         [[ " $value_options " == *" $1 "* ]] || plot_fail "$1: unknown option (see $(basename "$0") --help)"
         [ $# -ge 2 ] || plot_fail "$1: expected a value"
         extra[$1]=$2; shift 2 ;;
-      *) input=$1; inputs=$((inputs + 1)); shift ;;
+      *) inputs+=("$1"); shift ;;
     esac
   done
-  [ $inputs -le 1 ] || plot_fail "expected one input"
+  [ ${#inputs[@]} -le "${most_inputs:-1}" ] || plot_fail "expected at most ${most_inputs:-1} input$([ "${most_inputs:-1}" -eq 1 ] || echo s)"
+  [ ${#inputs[@]} -gt 0 ] || inputs=(-)
+  input=${inputs[0]}
   command -v gnuplot >/dev/null && command -v jq >/dev/null || plot_fail "gnuplot and jq are needed (scripts/setup)" 70
   if [ -z "$form" ]; then
     case "$output" in

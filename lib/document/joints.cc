@@ -25,9 +25,11 @@ JointAngles joint_angles_from(const Node& node) {
 
 Json joint_angles_to_json(const JointAngles& angles) {
   Json list = Json::array();
-  for (const double angle : angles) list.push_back(degrees_from_radians(angle));
+  for (const double angle : angles) list.push_back(document_degrees(angle));
   return list;
 }
+
+double document_degrees(double rad) { return std::round(degrees_from_radians(rad) * 1e12) / 1e12; }
 
 Json number_or_null(std::optional<double> value) {
   return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);

@@ -15,6 +15,9 @@ Eigen::Vector3d vector_from(const Node& node, const Bound& bound = kAnyNumber);
 JointAngles joint_angles_from(const Node& node);
 Json joint_angles_to_json(const JointAngles& angles);
 
+/// An angle in degrees, to 1e-12: what was 30 degrees in an input is 30 again.
+double document_degrees(double rad);
+
 /// A number, or null.
 Json number_or_null(std::optional<double> value);
 

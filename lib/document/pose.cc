@@ -22,7 +22,7 @@ Json to_json(const Eigen::Vector3d& v) { return Json::array({v[0], v[1], v[2]});
 Json to_json(const PoseReport& report, const StiffnessTask& task) {
   Json pose = {{"joints_deg", joint_angles_to_json(report.angles)},
                {"tcp_mm", to_json(report.tool.translation() * 1e3)},
-               {"redundancy_deg", degrees_from_radians(report.redundancy_rad)},
+               {"redundancy_deg", document_degrees(report.redundancy_rad)},
                {"score", in_score_unit(report.score, task.index)}};
   if (report.score_std) pose["score_std"] = in_score_unit(*report.score_std, task.index);
   Json principal = Json::array();
@@ -40,7 +40,7 @@ Json to_json(const PoseReport& report, const StiffnessTask& task) {
     if (report.deflection_std_m) pose["deflection_std_um"] = *report.deflection_std_m * 1e6;
     pose["displacement_um"] = to_json(*report.deflection_m * 1e6);
   }
-  pose["limit_margin_deg"] = degrees_from_radians(report.limit_margin_rad);
+  pose["limit_margin_deg"] = document_degrees(report.limit_margin_rad);
   pose["singularity_margin"] = report.singularity_margin;
   return pose;
 }
@@ -49,8 +49,8 @@ Json family_to_json(const PoseFamily& family, const Robot& robot) {
   const auto interval = [&](const char* kind, int joint) {
     return Json{{"kind", kind},
                 {"joint", robot.joints[static_cast<std::size_t>(joint)].name},
-                {"from_deg", degrees_from_radians(family.from_rad)},
-                {"to_deg", degrees_from_radians(family.to_rad)}};
+                {"from_deg", document_degrees(family.from_rad)},
+                {"to_deg", document_degrees(family.to_rad)}};
   };
   switch (family.kind) {
     case PoseFamily::Kind::kBaseTurn:
@@ -132,7 +132,7 @@ Json pose_to_json(const PoseDocument& document, const Robot& robot) {
   result["redundancy_matters"] = document.search.redundancy_matters;
   Json angles = Json::array(), scores = Json::array();
   for (std::size_t i = 0; i < document.sweep.redundancy_rad.size(); ++i) {
-    angles.push_back(degrees_from_radians(document.sweep.redundancy_rad[i]));
+    angles.push_back(document_degrees(document.sweep.redundancy_rad[i]));
     const auto& score = document.sweep.score[i];
     scores.push_back(score ? Json(in_score_unit(*score, document.task.index)) : Json(nullptr));
   }
@@ -175,7 +175,9 @@ Json pose_map_to_json(const PoseMap& map, const PoseTask& task, const PlaneDocum
     return rows_of(rows, columns, [&](auto j, auto i) { return number_or_null(values(j, i) * factor); });
   };
   result["score"] = number(map.score, in_score_unit(1, task.stiffness.index));
-  result["redundancy_deg"] = number(map.redundancy_rad, degrees_from_radians(1));
+  result["redundancy_deg"] = rows_of(rows, columns, [&](auto j, auto i) {
+    return number_or_null(document_degrees(map.redundancy_rad(j, i)));
+  });
   result["branch"] = rows_of(rows, columns, [&](auto j, auto i) {
     return map.branch(j, i) < 0 ? Json(nullptr) : Json(map.branch(j, i));
   });
