@@ -77,7 +77,8 @@ class BestPose : public cli::Tool {
            "--assume", [this](const std::vector<std::string>& texts) { assume(texts); },
            "Stiffness of a joint that was not identified, N m/rad, as in A1=6.9e6; may be given again")
         ->type_name("JOINT=K")
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->allow_extra_args(false);
     not_in_provenance(
         app.add_option("--map", map_path_, "Also write the best of the samples at each point of the plane")
             ->type_name("FILE"));

@@ -66,7 +66,8 @@ class JointStiffnessTool : public cli::Tool {
            "A force that a plan may use at the tool point, N, base frame; may be given again (default: 600 "
            "along x, y, -z)")
         ->type_name("X,Y,Z")
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->allow_extra_args(false);
     const auto positive = [](double value) { return value > 0; };
     cli::add_number_option(app, "--std-mm", std_mm_,
                            "Deviation of a measured component, for a plan (default: 0.005)",

@@ -297,8 +297,10 @@ class Fit {
 
   void list_outliers(double unit, Identification& result) const {
     if (options_.huber) unit = robust_unit();
-    const double b_size = equations_.b.cwiseQuotient(std_).cwiseAbs().maxCoeff();
-    if (!result.deviations_known || !(unit > 1e-12 * b_size)) return;
+    if (!result.deviations_known) return;
+    // Exact samples have rounding for residuals, and no outliers.
+    unit = std::max(unit, 1e-12 * equations_.b.cwiseQuotient(std_).cwiseAbs().maxCoeff());
+    if (!(unit > 0)) return;
     for (const Block& block : blocks_) {
       const double z = deviations_of(block, unit);
       if (z <= kOutlier) continue;

@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# Bad input to best-pose: the right exit status, one line that names the place, nothing half-written.
+. "$SOURCE/apps/testing.sh"
+robot=$data/kr360.json
+jq '{format: "stablecut/joint-stiffness/1", stiffness_n_m_per_rad: .k_theta_2d_n_m_per_rad}' "$data/yanshan-poses.json" >k2d.json
+search=(best-pose --robot "$robot" --height 1600)
+
+stiffness_with() {
+  jq "$1" k2d.json >changed.json
+  refused 65 "^best-pose: changed.json: $2" "${search[@]}" changed.json -o result.json
+}
+stiffness_with '.stiffness_n_m_per_rad = [1, 2]' '/stiffness_n_m_per_rad: a list of 2: expected 6'
+stiffness_with '.stiffness_n_m_per_rad[2] = 0' '/stiffness_n_m_per_rad/2: 0: expected a stiffness above 0'
+stiffness_with '.stiffness_n_m_per_rad[2] = "x"' '/stiffness_n_m_per_rad/2: "x": expected'
+stiffness_with '.stiffness_kn_m_per_rad = 1' '/stiffness_kn_m_per_rad: unknown field: expected stiffness_n_m_per_rad'
+stiffness_with 'del(.stiffness_n_m_per_rad)' '/stiffness_n_m_per_rad: missing'
+stiffness_with '.std_n_m_per_rad = [1, 2, 3, 4, 5, -6]' '/std_n_m_per_rad/5: -6: expected'
+stiffness_with '.covariance_compliance = [[1]]' '/covariance_compliance: a list of 1: expected 6 rows'
+stiffness_with '.covariance_compliance = [range(6) | [range(6)]]' '/covariance_compliance: a list of 6: expected a covariance matrix'
+stiffness_with '.format = "stablecut/cut/1"' '/format: "stablecut/cut/1": expected "stablecut/joint-stiffness/1"'
+refused 65 '^best-pose: <stdin>: empty input' "${search[@]}" </dev/null
+
+jq '.joints[4].a_mm = 50' "$robot" >wrist.json
+refused 65 '^best-pose: wrist.json: /joints/4/a_mm: 50.0: expected 0, .*spherical wrist' best-pose --robot wrist.json --height 1600 k2d.json
+jq '.joints[2].alpha_deg = 10' "$robot" >skew.json
+refused 65 '^best-pose: skew.json: /joints/2/alpha_deg: 10.0: expected 0 or 180' best-pose --robot skew.json --height 1600 k2d.json
+echo '{"format": "stablecut/pose-list/1", "poses": [{"joints_deg": [0, 0, 0, 0, 0, 0]}]}' >poses.json
+check "but it can be evaluated" best-pose --robot wrist.json --evaluate poses.json k2d.json -o wrist-scores.json
+
+echo '{"format": "stablecut/pose-list/1", "poses": [{"joints_deg": [0, 0, 0]}]}' >short.json
+refused 65 '^best-pose: short.json: /poses/0/joints_deg: a list of 3: expected 6' best-pose --robot "$robot" --evaluate short.json k2d.json
+echo '{"format": "stablecut/pose-list/1", "poses": [{"joints_deg": [0, 90, 0, 0, 0, 0]}]}' >outside.json
+best-pose --robot "$robot" --evaluate outside.json k2d.json -o scored.json 2>.err
+check "a pose outside the limits is scored with a warning" grep -q '^best-pose: warning: outside.json: /poses/0/joints_deg: 70.000 degrees outside' .err
+check_jq "and a negative margin" scored.json '.evaluated[0].limit_margin_deg == -70'
+
+refused 64 '^best-pose: --robot: missing' best-pose --height 1600 k2d.json
+refused 64 '^best-pose: --height: missing: expected the height of the plane' best-pose --robot "$robot" k2d.json
+refused 64 '^best-pose: --height: x: expected a number' best-pose --robot "$robot" --height x k2d.json
+refused 64 '^best-pose: --force: missing: expected a force for the index deflection' "${search[@]}" --index deflection k2d.json
+refused 64 '^best-pose: --force: 0,0,0: expected a force that is not zero' "${search[@]}" --force 0,0,0 k2d.json
+refused 64 '^best-pose: --force: 1,2: expected X,Y,Z' "${search[@]}" --force 1,2 k2d.json
+refused 64 '^best-pose: --tool-axis: 0,0,0: expected a direction' "${search[@]}" --tool-axis 0,0,0 k2d.json
+refused 64 '^best-pose: --index: soft: expected combined\|weakest' "${search[@]}" --index soft k2d.json
+refused 64 '^best-pose: --x: 1:2: expected FROM:TO:COUNT' "${search[@]}" --x 1:2 k2d.json
+refused 64 '^best-pose: --redundancy: expected at most a full turn' "${search[@]}" --redundancy 0:400:5 k2d.json
+refused 64 '^best-pose: --limit-margin: -1: expected' "${search[@]}" --limit-margin=-1 k2d.json
+refused 64 '^best-pose: --height: expected either a height or --plane-origin' "${search[@]}" --plane-origin 0,0,1 k2d.json
+refused 64 '^best-pose: --plane-y: expected a direction square to --plane-x' best-pose --robot "$robot" --plane-origin 0,0,1 --plane-y 1,1,0 k2d.json
+refused 64 '^best-pose: --map: expected a search' best-pose --robot "$robot" --evaluate poses.json --map m.json k2d.json
+refused 64 '^best-pose: --assume: A1: expected JOINT=K' "${search[@]}" --assume A1 k2d.json
+refused 64 '^best-pose: same.json: expected another output' "${search[@]}" --map same.json -o same.json k2d.json
+refused 64 'at most 4000000 points' "${search[@]}" --x 0:1:3000 --y 0:1:3000 k2d.json
+refused 73 '^best-pose: none/map.json: cannot be created' "${search[@]}" --map none/map.json -o result.json k2d.json
+refused 66 '^best-pose: none.json: cannot be read' best-pose --robot "$robot" --evaluate none.json k2d.json
+check "nothing was written" test ! -e result.json -a ! -e same.json

@@ -1,0 +1,86 @@
+#!/usr/bin/env bash
+# best-pose: published poses scored, published optima found, maps, families, what is missing.
+. "$SOURCE/apps/testing.sh"
+robot=$data/kr360.json
+same_for_every_tool best-pose pose --robot "$robot" --height 1600
+jq '{format: "stablecut/joint-stiffness/1", stiffness_n_m_per_rad: .k_theta_2d_n_m_per_rad}' "$data/yanshan-poses.json" >k2d.json
+run() { best-pose --robot "$robot" --quiet "$@" k2d.json; }
+
+# Tables 2 and 3: heights, and the deflections by independent code to 1 um.
+evaluate() {
+  jq "{format: \"stablecut/pose-list/1\", poses: [.$1[] | {joints_deg}]}" "$data/yanshan-poses.json" >poses.json
+  run --evaluate poses.json --force 0,0,-588.6 --index deflection -o "$1.json"
+  check_jq "$1: deflections" "$1.json" "[[.evaluated[].deflection_um], $2] | transpose | length == 6 and all(.[0] - .[1] | fabs <= 1)"
+  check_jq "$1: tool points" "$1.json" "[[.evaluated[].tcp_mm], [\$paper[0].$1[].model_tcp_mm]] | transpose | length == 6 and
+    all(transpose | all(.[0] - .[1] | fabs <= 0.001))" --slurpfile paper "$data/yanshan-poses.json"
+}
+evaluate height_1600_mm '[242, 315, 521, 598, 663, 383]'
+evaluate height_1200_mm '[277, 268, 357, 450, 333, 596]'
+check_jq "Table 2 lies at 1.594 to 1.601 m" height_1600_mm.json '[.evaluated[].tcp_mm[2]] | min > 1594 and max < 1601.5'
+check_jq "pose 1 of Table 2 is the stiffest" height_1600_mm.json '.evaluated[0].rank == 1'
+check_jq "margins inside the limits" height_1600_mm.json 'all(.evaluated[]; .limit_margin_deg > 0 and .singularity_margin > 0)'
+
+# Optima straight down (independent code), to 0.1 %; the limit margin decides.
+optimum() {
+  local name=$1 filter=$2; shift 2
+  run "$@" -o best.json
+  check_jq "$name" best.json "def near(a; b): (a / b - 1 | fabs) < 0.001; .best as \$b | (\$b.tcp_mm[0:2] | map(. * .) | add | sqrt) as \$radius | $filter"
+}
+down=(--force 0,0,-588.6 --limit-margin 0)
+optimum "1.6 m, deflection: on A2's limit" 'near($b.score; 197.3) and near($radius; 689) and ($b.joints_deg[1] + 130 | fabs) < 1e-6' --height 1600 --index deflection "${down[@]}"
+optimum "1.2 m, deflection: inside" 'near($b.score; 211.1) and near($radius; 898) and near($b.joints_deg[1]; -110.8)' --height 1200 --index deflection "${down[@]}"
+optimum "1.2 m, weakest: on A3's limit" 'near($b.score; 1.543e6) and ($b.joints_deg[2] - 144 | fabs) < 1e-6' --height 1200 --index weakest "${down[@]}"
+optimum "1.2 m, axial: inside" 'near($b.score; 2.788e6) and near($radius; 898)' --height 1200 --index axial "${down[@]}"
+optimum "1.2 m, combined: near A3's limit" 'near($b.score; 6.381e6)' --height 1200 "${down[@]}"
+optimum "five degrees inside" '($b.joints_deg[1] + 125 | fabs) < 1e-6 and ($b.limit_margin_deg - 5 | fabs) < 1e-6' --height 1600 --index deflection --force 0,0,-588.6 --limit-margin 5
+optimum "a load that is not vertical" 'near($b.score; 117.5) and ($b.tcp_mm[0] - 592 | fabs) < 2 and (($b.tcp_mm[1] | fabs) - 353 | fabs) < 2' --height 1600 --index deflection --force 400,0,-400 --limit-margin 0
+check_jq "and its mirror image" best.json '[.families[].kind] | index("equal") != null and index("base-turn") == null'
+optimum "the same on a coarse grid" 'near($b.score; 117.5)' --height 1600 --index deflection --force 400,0,-400 --limit-margin 0 --x=-2000:2500:4 --y=-2000:2000:3
+optimum "a force that turns with the tool" 'near($b.score; $b.deflection_um)' --height 1600 --index deflection --force 300,0,-300 --force-frame tool
+optimum "a point: the redundancy is all that is left" '($b.tcp_mm | map(round)) == [1500, 200, 1600]' --height 1600 --x 1500:1500:1 --y 200:200:1
+optimum "a wall: a vertical plane, tool along x" '($b.tcp_mm[0] - 2000 | fabs) < 1e-6 and .plane.origin_mm == [2000, 0, 1500]' --plane-origin 2000,0,1500 --plane-x 0,1,0 --plane-y 0,0,1 --tool-axis 1,0,0
+
+# The sweep that cannot matter.
+best-pose --robot "$robot" --height 1600 --index weakest k2d.json 2>.err >weakest.json
+check "weakest: warned" grep -q '^best-pose: warning: --redundancy: the tool is coaxial with joint A6' .err
+check_jq "weakest: families" weakest.json '.redundancy_matters == false and ([.families[].kind] | contains(["base-turn", "tool-turn", "flipped-wrist"]))'
+best-pose --robot "$robot" --height 1600 k2d.json 2>.err >combined.json
+check "combined: not warned" test ! -s .err
+jq '.tool.translation_mm[0] = 200' "$robot" >offset.json
+best-pose --robot offset.json --height 1600 --index weakest --x 1500:1500:1 --y 300:300:1 k2d.json 2>.err >offset-best.json
+check "offset tool: not warned" test ! -s .err
+check_jq "offset tool: the sweep shows how much it matters" offset-best.json '.best.score / ([.redundancy_sweep.score[] | select(.)] | min) > 1.2
+  and .best.score >= ([.redundancy_sweep.score[] | select(.)] | max)'
+
+# Maps.
+run --height 1600 --x=-2600:2600:27 --y=-2600:2600:27 --map map.json -o best.json
+check_jq "the map's shape" map.json '(.score | length) == 27 and (.score | all(length == 27)) and (.x_mm | length) == 27 and .height_mm == 1600'
+check_jq "the map stays below the best" map.json '[.score[][] | select(.)] | length > 300 and max <= $best[0].best.score' --slurpfile best best.json
+check_jq "null together" map.json '[.score[][], null] as $s | [[.score[][]], [.redundancy_deg[][]], [.branch[][]]] | transpose | all((map(. == null) | unique | length) == 1)'
+check_jq "the centre is out of reach" map.json '.score[13][13] == null'
+run --height 1600 --x=-2600:2600:27 --y=-2600:2600:27 --map one.json --threads 1 -o one-best.json
+check "same bytes on one thread" cmp -s map.json one.json
+check "same best on one thread" cmp -s best.json one-best.json
+
+# Joints without a stiffness.
+jq '.stiffness_n_m_per_rad[0] = null | .stiffness_n_m_per_rad[5] = null' k2d.json >partial.json
+refused 1 '^best-pose: partial.json: /stiffness_n_m_per_rad/0: null: A1, A6 not identified: .*--assume A1=K --assume A6=K' best-pose --robot "$robot" --height 1600 partial.json
+best-pose --robot "$robot" --height 1600 --assume A1=6.89e6 --assume A6=6.32e5 partial.json >assumed.json
+check_jq "assumed stiffness gives the same pose" assumed.json '(.best.score / $b[0].best.score - 1 | fabs) < 1e-9' --slurpfile b combined.json
+jq '.stiffness_n_m_per_rad[5] = null' k2d.json >no6.json
+refused 1 'any K: the tool point lies on this joint' best-pose --robot "$robot" --height 1600 no6.json
+refused 64 '^best-pose: --assume: A1: .*has a stiffness' best-pose --robot "$robot" --height 1600 --assume A1=1e6 k2d.json
+refused 64 '^best-pose: --assume: B1: expected one of A1, A2' best-pose --robot "$robot" --height 1600 --assume B1=1e6 k2d.json
+
+# Uncertainty: 10 % on joint 2 alone.
+jq '.std_n_m_per_rad = [0, 4.53e5, 0, 0, 0, 0]' k2d.json >uncertain.json
+best-pose --robot "$robot" --quiet --evaluate poses.json --force 0,0,-588.6 --index deflection uncertain.json >spread.json
+jq '.stiffness_n_m_per_rad[1] *= 1.001' k2d.json >stiffer.json
+best-pose --robot "$robot" --quiet --evaluate poses.json --force 0,0,-588.6 --index deflection stiffer.json >shifted.json
+check_jq "deviations are the slope times the deviation" spread.json '[.evaluated, $shifted[0].evaluated] | transpose | length == 6 and
+  all((.[0].score_std / ((.[0].score - .[1].score) * 100) - 1 | fabs) < 0.01)' --slurpfile shifted shifted.json
+check_jq "probabilities" spread.json '[.evaluated[] | select(.rank > 1) | .probability_better] | length == 5 and all(. >= 0 and . < 0.5)'
+
+# No pose.
+refused 1 '^best-pose: no reachable pose: nothing of the plane is within' best-pose --robot "$robot" --height 9000 k2d.json
+refused 1 '^best-pose: no reachable pose: at best joint A[1-6] would be .* outside its limits' best-pose --robot "$robot" --height 1600 --x 0:300:4 --y 0:0:1 --tool-axis 0,0,1 k2d.json

@@ -1,0 +1,83 @@
+#!/usr/bin/env bash
+# joint-stiffness on samples: exact ones give the truth, as JSON and as CSV; what cannot be known is null; plans.
+. "$SOURCE/apps/testing.sh"
+robot=$data/kr360.json
+same_for_every_tool joint-stiffness joint-stiffness --robot "$robot"
+
+jq '{format: "stablecut/joint-stiffness/1", stiffness_n_m_per_rad: .k_theta_2d_n_m_per_rad}' "$data/yanshan-poses.json" >truth.json
+jq '{format: "stablecut/pose-list/1", poses: [.height_1600_mm[], .height_1200_mm[] | {joints_deg}]}' "$data/yanshan-poses.json" >poses.json
+
+# samples ROBOT FORCE...: load samples with the deflections that best-pose predicts from the truth.
+samples() {
+  local robot=$1; shift
+  for force in "$@"; do
+    best-pose --robot "$robot" --evaluate poses.json --force="$force" truth.json |
+      jq --arg force "$force" '[.evaluated[] | {joints_deg, force_n: ($force | split(",") | map(tonumber)),
+        deflection_mm: (.displacement_um | map(. / 1000))}]'
+  done | jq -s '{format: "stablecut/load-samples/1", frame: "base", samples: add}'
+}
+three=(600,0,0 0,600,0 0,0,-600)
+close_to_truth='[.stiffness_n_m_per_rad, $truth[0].stiffness_n_m_per_rad] | transpose | map(select(.[0])) |
+  length > 0 and all((.[0] / .[1] - 1 | fabs) < 1e-9)'
+
+samples "$robot" "${three[@]}" >loads.json
+joint-stiffness --robot "$robot" loads.json -o found.json 2>.err
+check "the joint that the loads cannot see is named" grep -q '^joint-stiffness: warning: joint A6 is not identified: the loads' .err
+check "one warning" test "$(wc -l <.err)" -eq 1
+check_jq "five joints, the sixth null" found.json '.identifiable == [true, true, true, true, true, false] and .rank == 5
+  and .stiffness_n_m_per_rad[5] == null and .interval_95_n_m_per_rad[5] == null and .covariance_compliance[5] == [null, null, null, null, null, null]'
+check_jq "exact samples give the truth" found.json "$close_to_truth" --slurpfile truth truth.json
+
+# A point off the axis, for load and measurement: all six. As a tool, and as points of each sample.
+jq '.tool.translation_mm = [150, 50, 210]' "$robot" >offset.json
+samples offset.json "${three[@]}" >offset-loads.json
+joint-stiffness --robot offset.json offset-loads.json -o found.json 2>.err
+check_jq "all six with the tool off the axis" found.json "(.identifiable | all) and ($close_to_truth)" --slurpfile truth truth.json
+check "no warning" test ! -s .err
+jq '.samples[] += {force_point_mm: [150, 50, 210], measuring_point_mm: [150, 50, 210]}' offset-loads.json |
+  joint-stiffness --robot "$robot" -o points.json
+check_jq "the same by points" points.json '.stiffness_n_m_per_rad == $found[0].stiffness_n_m_per_rad' --slurpfile found found.json
+
+# As a spreadsheet holds them: header with units, any order, decimal commas, empty lines, or bare columns.
+jq -r '"dz [um];Fx (N);Fy [N];Fz_n;note;A6;A5;A4;A3;A2;A1;dx_um;dy_mm", (.samples[] |
+  [.deflection_mm[2] * 1000, .force_n[], "pose", (.joints_deg | reverse[]), .deflection_mm[0] * 1000, .deflection_mm[1]]
+  | map(tostring | gsub("\\."; ",")) | join(";")), ";;;;;;;;;;;;"' loads.json >loads.csv
+joint-stiffness --robot "$robot" --quiet loads.csv -o found.json
+check_jq "CSV gives the truth" found.json "$close_to_truth" --slurpfile truth truth.json
+jq -r '.samples[] | [.joints_deg[], .force_n[], .deflection_mm[]] | @csv' loads.json |
+  joint-stiffness --robot "$robot" --quiet -o found.json
+check_jq "twelve bare columns give the truth" found.json "$close_to_truth" --slurpfile truth truth.json
+
+# The bundled noisy samples.
+joint-stiffness --robot "$robot" "$data/kr360-loads.csv" -o noisy.json
+check_jq "noisy samples: within four deviations" noisy.json '[.stiffness_n_m_per_rad, .std_n_m_per_rad, $truth[0].stiffness_n_m_per_rad] | transpose |
+  length == 6 and all((.[0] - .[2] | fabs) < 4 * .[1])' --slurpfile truth truth.json
+check_jq "8 um of noise" noisy.json '.residual_rms_um > 7 and .residual_rms_um < 9 and .cross_validation.rms_um > .residual_rms_um'
+
+# One component; an outlier.
+jq '.samples[].deflection_mm[0:2] = [null, null]' loads.json |
+  joint-stiffness --robot "$robot" --components z --quiet -o z.json
+check_jq "z alone" z.json ".components == \"z\" and ($close_to_truth)" --slurpfile truth truth.json
+jq '.samples[4].deflection_mm[2] += 1' loads.json >outlier.json
+joint-stiffness --robot "$robot" --loss huber outlier.json -o huber.json 2>.err
+check_jq "huber names the outlier" huber.json '.outliers[0] | .sample == 4 and .place == "/samples/4" and .weight < 0.1'
+check "so does standard error" grep -q '/samples/4: .* deviations' .err
+joint-stiffness --robot "$robot" --threads 1 outlier.json --quiet >one.json
+joint-stiffness --robot "$robot" --threads 2 outlier.json --quiet >two.json
+check "same bytes on one and two threads" cmp -s one.json two.json
+
+# Vertical loads, tool straight down: joints 2 and 3; nothing at all: status 1.
+jq '.samples |= map(select(.force_n[2] != 0) | .joints_deg[3] = 0 | .joints_deg[4] = 90 - .joints_deg[1] - .joints_deg[2])' loads.json >down.json
+joint-stiffness --robot "$robot" --quiet down.json -o down-found.json
+check_jq "tool down, vertical loads: joints 2 and 3" down-found.json '.identifiable == [false, true, true, false, false, false] and .rank == 2'
+jq '.samples[].force_n = [0, 0, 0]' loads.json >unloaded.json
+refused 1 '^joint-stiffness: unloaded.json: no joint can be identified: A1 is not seen' joint-stiffness --robot "$robot" unloaded.json
+
+# Plans.
+joint-stiffness --robot "$robot" --plan 6 --expected truth.json --quiet poses.json -o plan.json
+check_jq "a plan" plan.json '(.samples | length) == 6 and .rank == 5 and .std_n_m_per_rad[5] == null and .efficiency > 0.5 and
+  (.std_n_m_per_rad[0:5] | all(. > 0))'
+joint-stiffness --robot offset.json --plan 12 --load 500,0,0 --load 0,0,-500 --std-mm 0.01 poses.json -o plan.json
+check_jq "a plan with its own loads" plan.json '([.samples[].force_n] | unique | length) <= 2 and .rank == 6'
+refused 1 'too few samples: 1 cannot tell' joint-stiffness --robot "$robot" --plan 1 --quiet poses.json
+refused 64 '^joint-stiffness: --load, --std-mm, --expected: expected with --plan only' joint-stiffness --robot "$robot" --std-mm 1 loads.json
