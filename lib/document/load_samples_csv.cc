@@ -119,9 +119,11 @@ std::optional<Column> column_of(const std::string& header, const Robot& robot, b
       return with_unit(Quantity::kJoint, j, angles);
     }
   }
-  if (name == "std" || name == "stdmm") return with_unit(Quantity::kStd, 0, known_columns()[2].units);
-  if (name == "stdrad" || name == "stdrotation")
-    return with_unit(Quantity::kStdRotation, 0, known_columns()[3].units);
+  if (name == "std") {
+    const bool rotation = factor(known_columns()[3].units, unit).has_value() && !unit.empty();
+    return with_unit(rotation ? Quantity::kStdRotation : Quantity::kStd, 0,
+                     known_columns()[rotation ? 3 : 2].units);
+  }
   if (name.empty()) return std::nullopt;
   const auto component = std::string("xyz").find(name.back());
   if (component == std::string::npos) return std::nullopt;
@@ -195,6 +197,14 @@ LoadSamplesDocument load_samples_from_csv(const Source& source, const Robot& rob
     if (components[static_cast<std::size_t>(d)]) {
       need(Quantity::kDeflection, d, std::string("d") + kAxes[static_cast<std::size_t>(d)]);
     }
+  }
+
+  // Of rotations and points all three or none: a missing one is not 0.
+  for (const auto& [quantity, name] : {std::pair<Quantity, std::string>{Quantity::kRotation, "r"},
+                                       {Quantity::kForcePoint, "force_point_"},
+                                       {Quantity::kMeasuringPoint, "measuring_point_"}}) {
+    if (!find(quantity, 0) && !find(quantity, 1) && !find(quantity, 2)) continue;
+    for (int d = 0; d < 3; ++d) need(quantity, d, name + kAxes[static_cast<std::size_t>(d)]);
   }
 
   // A spreadsheet's empty lines are rows of empty fields.

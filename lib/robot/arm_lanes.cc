@@ -60,13 +60,16 @@ STABLECUT_INLINE Lanes angle_of(const Lanes& y, const Lanes& x) {
   return y < 0 ? -angle : angle;
 }
 
-// theta -> the controller angle nearest the middle of the range. Rounds to whole turns by adding what has no
-// fraction bits, which is the same on every processor.
-STABLECUT_INLINE Lanes controller_angle(const ArmConstants& robot, int joint, const Lanes& theta) {
+// Rounds by adding what has no fraction bits, which is the same on every processor.
+STABLECUT_INLINE Lanes nearest_whole(const Lanes& value) {
   constexpr double kShift = 6755399441055744.0;  // 1.5 * 2^52
+  return (value + kShift) - kShift;
+}
+
+// theta -> the controller angle nearest the middle of the range.
+STABLECUT_INLINE Lanes controller_angle(const ArmConstants& robot, int joint, const Lanes& theta) {
   const Lanes angle = robot.sign[joint] * (theta - robot.offset[joint]);
-  const Lanes turns = (robot.middle[joint] - angle) * (1 / kTurn);
-  return angle + kTurn * ((turns + kShift) - kShift);
+  return angle + kTurn * nearest_whole((robot.middle[joint] - angle) * (1 / kTurn));
 }
 
 STABLECUT_INLINE Lanes joint_margin(const ArmConstants& robot, int joint, const Lanes& angle) {
@@ -74,6 +77,29 @@ STABLECUT_INLINE Lanes joint_margin(const ArmConstants& robot, int joint, const 
 }
 
 }  // namespace
+
+// Reduced to |r| <= pi/4 by pi/2 in three parts, whose products with a small whole number are exact; then the
+// series, whose next terms are below 5e-17.
+STABLECUT_WIDE void sines_and_cosines(const double angle[8], double sine[8], double cosine[8]) {
+  constexpr double kHigh = 0x1.921fb544p+0, kMiddle = 0x1.0b4611a6p-34, kLow = 0x1.3198a2e037073p-69;
+  const Lanes one = Lanes{} + 1;
+  for (int half = 0; half < 8; half += kArms) {
+    const Lanes x = load(angle + half);
+    const Lanes k = nearest_whole(x * (2 / kPi));
+    const Lanes r = ((x - k * kHigh) - k * kMiddle) - k * kLow;
+    const Lanes r2 = r * r;
+    Lanes s = one, c = one;
+    for (int n = 16; n >= 2; n -= 2) {
+      c = 1 - r2 * c * (1.0 / (n * (n - 1)));
+      if (n <= 14) s = 1 - r2 * s * (1.0 / (n * (n + 1)));
+    }
+    s = r * s;
+    const Lanes quarter = k - 4 * nearest_whole(0.25 * k - 0.375);
+    const Lanes s_or_c = quarter == 1 || quarter == 3 ? c : s, c_or_s = quarter == 1 || quarter == 3 ? s : c;
+    store(quarter >= 2 ? -s_or_c : s_or_c, sine + half);
+    store(quarter == 1 || quarter == 2 ? -c_or_s : c_or_s, cosine + half);
+  }
+}
 
 STABLECUT_WIDE void solve_arms(const ArmConstants& robot, const ArmTarget& target, ArmLanes& out) {
   const ArmConstants k = robot;
@@ -102,8 +128,7 @@ STABLECUT_WIDE void solve_arms(const ArmConstants& robot, const ArmTarget& targe
   const double x1_squared = radius2 - y1 * y1;
   const bool on_axis1 = radius2 < kFreeRadius * kFreeRadius;
   const double per_radius2 = on_axis1 ? 0 : 1 / radius2;
-  const double free_c1 = on_axis1 ? std::cos(k.free1) : 0, free_s1 = on_axis1 ? std::sin(k.free1) : 0;
-  const double free_c4 = std::cos(k.free4), free_s4 = std::sin(k.free4);
+  const double free_c1 = on_axis1 ? k.cos_free1 : 0, free_s1 = on_axis1 ? k.sin_free1 : 0;
   const bool shoulder_reaches = x1_squared >= -kReachTolerance * (radius2 + k.forearm * k.forearm);
   const double x1_size = std::sqrt(x1_squared > 0 ? x1_squared : 0);
   const double v = k.cos_alpha1 * y1 + k.sin_alpha1 * wz;
@@ -121,6 +146,16 @@ STABLECUT_WIDE void solve_arms(const ArmConstants& robot, const ArmTarget& targe
   const Lanes reach2 = u * u + v * v;
   const Lanes cos_bent_raw = (reach2 - sum2) * per_2al;
   const auto bends = size_of(cos_bent_raw) <= 1 + kReachTolerance;
+  if (!shoulder_reaches || !(bends[0] || bends[2])) {  // the elbow's side does not matter here
+    const double sixth[3] = {z6[0], z6[1], z6[2]}, wrist[3] = {wx, wy, wz};
+    out = ArmLanes{};
+    for (int i = 0; i < 3; ++i) {
+      out.axis6[i] = sixth[i];
+      out.wrist[i] = wrist[i];
+    }
+    for (double& margin : out.limit_margin) margin = -std::numeric_limits<double>::infinity();
+    return;
+  }
   const Lanes cb = least(largest_of(cos_bent_raw, Lanes{} - 1), Lanes{} + 1);
   const Lanes sb = side * square_root((1 - cb) * (1 + cb));
   const Lanes tx = k.a2 + k.forearm * cb, ty = k.forearm * sb;
@@ -149,7 +184,8 @@ STABLECUT_WIDE void solve_arms(const ArmConstants& robot, const ArmTarget& targe
   const Lanes s5 = square_root(m13 * m13 + m23 * m23), c5 = -wrist45 * m33;
   const auto in_line = s5 < kFreeSine;
   const Lanes per_s5 = k.wrist5 / (in_line ? one : s5);
-  const Lanes c4 = in_line ? zero + free_c4 : m13 * per_s5, s4 = in_line ? zero + free_s4 : m23 * per_s5;
+  const Lanes c4 = in_line ? zero + k.cos_free4 : m13 * per_s5,
+              s4 = in_line ? zero + k.sin_free4 : m23 * per_s5;
   // theta6 from what is left after theta4 and theta5: well conditioned in every pose.
   const Lanes lx = c4 * m11 + s4 * m21, ly = c4 * m21 - s4 * m11;
   const Lanes c6 = c5 * lx + k.wrist4 * s5 * m31, s6 = -wrist45 * ly;
@@ -166,7 +202,6 @@ STABLECUT_WIDE void solve_arms(const ArmConstants& robot, const ArmTarget& targe
   for (int j = 1; j < 3; ++j) arm_margin = least(arm_margin, joint_margin(k, j, arm_angles[j]));
   const Lanes nowhere = zero - std::numeric_limits<double>::infinity();
   arm_margin = bends ? arm_margin : nowhere;
-  if (!shoulder_reaches) arm_margin = nowhere;
   for (int w = 0; w < 2; ++w) {
     Lanes margin = arm_margin;
     for (int j = 0; j < 3; ++j) {

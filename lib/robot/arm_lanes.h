@@ -24,7 +24,8 @@ struct ArmConstants {
   double d6;
   double sign[6], offset[6];  ///< theta = sign * angle + offset
   double middle[6], half_range[6];
-  double free1, free4;  ///< theta of joints 1 and 4 where the target leaves them free
+  double cos_free1, sin_free1;  ///< of theta of joint 1 where the target leaves it free
+  double cos_free4, sin_free4;  ///< and of joint 4
 };
 
 /// Where frame 6 has to be: its x and z axes and origin, base frame.
@@ -33,7 +34,7 @@ struct ArmTarget {
 };
 
 /// What reaches the target, in the home frame (m). Where an arm does not reach, its limit margins are
-/// -infinity and the rest is finite but means nothing.
+/// -infinity and the rest is finite and means nothing.
 struct ArmLanes {
   double angle[6][kBranches];      ///< controller angles, the copy nearest the middle of the range
   double limit_margin[kBranches];  ///< least distance to a limit, rad; negative outside
@@ -44,8 +45,11 @@ struct ArmLanes {
   double axis6[3], wrist[3];
 };
 
-/// Policies where the target leaves a joint free: on axis 1 joint 1 takes free1, with axes 4 and 6 in line
-/// joint 4 takes free4 (and joint 6 the rest), with the wrist centre on axis 2 joint 2's theta is 0. A target
+/// Sines and cosines of eight angles below 1e5 rad in size, to 3e-16.
+void sines_and_cosines(const double angle[8], double sine[8], double cosine[8]);
+
+/// Policies where the target leaves a joint free: on axis 1, and with axes 4 and 6 in line,
+/// joints 1 and 4 take their free angle (and joint 6 the rest); with the wrist centre on axis 2 joint 2's theta is 0. A target
 /// within 1e-12 (relative) outside the reach counts as stretched.
 void solve_arms(const ArmConstants& robot, const ArmTarget& target, ArmLanes& lanes);
 

@@ -245,7 +245,8 @@ TEST_CASE("cross-validation is what leaving out does") {
     sum += (left.b - left.a * without.compliance).squaredNorm();
   }
   REQUIRE(found.cross_validation_rms_m);
-  CHECK(*found.cross_validation_rms_m == Approx(std::sqrt(sum / (3.0 * static_cast<double>(samples.size())))).epsilon(1e-9));
+  CHECK(*found.cross_validation_rms_m ==
+        Approx(std::sqrt(sum / (3.0 * static_cast<double>(samples.size())))).epsilon(1e-9));
   CHECK(found.samples_not_predicted == 0);
   CHECK(found.residual_rms_m < *found.cross_validation_rms_m);
 }

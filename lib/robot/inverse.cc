@@ -86,10 +86,18 @@ InverseKinematics::InverseKinematics(const Robot& robot)
     k.middle[i] = j[i].middle_rad();
     k.half_range[i] = j[i].half_range_rad();
   }
-  k.free1 = j[0].theta_of(nearest_to_zero(j[0]));
-  k.free4 = j[3].theta_of(nearest_to_zero(j[3]));
+  set_free_angles(nearest_to_zero(j[0]), nearest_to_zero(j[3]));
   home_from_base_.linear() << 1, 0, 0, 0, k.cos_alpha0, k.sin_alpha0, 0, -k.sin_alpha0, k.cos_alpha0;
   home_from_base_.translation() << -k.a0, 0, -k.d1;
+}
+
+void InverseKinematics::set_free_angles(double angle1, double angle4) {
+  ArmConstants& k = constants_;
+  const double theta1 = k.sign[0] * angle1 + k.offset[0], theta4 = k.sign[3] * angle4 + k.offset[3];
+  k.cos_free1 = std::cos(theta1);
+  k.sin_free1 = std::sin(theta1);
+  k.cos_free4 = std::cos(theta4);
+  k.sin_free4 = std::sin(theta4);
 }
 
 ArmTarget InverseKinematics::target_of(const Eigen::Isometry3d& tool) const {
@@ -122,8 +130,7 @@ std::vector<InverseSolution> InverseKinematics::solve(const Eigen::Isometry3d& t
 std::vector<InverseSolution> InverseKinematics::solve(const Eigen::Isometry3d& tool,
                                                       const JointAngles& free) const {
   InverseKinematics other = *this;
-  other.constants_.free1 = constants_.sign[0] * free[0] + constants_.offset[0];
-  other.constants_.free4 = constants_.sign[3] * free[3] + constants_.offset[3];
+  other.set_free_angles(free[0], free[3]);
   return other.solve(tool);
 }
 

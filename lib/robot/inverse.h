@@ -48,6 +48,8 @@ class InverseKinematics {
   const Eigen::Isometry3d& home_from_base() const { return home_from_base_; }
 
  private:
+  void set_free_angles(double angle1, double angle4);
+
   Eigen::Isometry3d frame6_from_tool_;
   Eigen::Isometry3d home_from_base_;
   ArmConstants constants_;

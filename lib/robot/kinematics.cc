@@ -1,7 +1,10 @@
 #include "robot/kinematics.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/SVD>
 #include <cmath>
+
+#include "robot/arm_lanes.h"
 
 namespace stablecut {
 namespace {
@@ -18,13 +21,15 @@ std::pair<Eigen::Vector3d, Eigen::Vector3d> reference_directions(const Eigen::Ve
 
 RobotPose robot_pose(const Robot& robot, const JointAngles& angles) {
   RobotPose pose;
+  double theta[8] = {}, sine[8], cosine[8];
+  for (int j = 0; j < kJoints; ++j) theta[j] = robot.joints[j].theta_of(angles[j]);
+  sines_and_cosines(theta, sine, cosine);
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   for (int j = 0; j < kJoints; ++j) {
     const Joint& joint = robot.joints[j];
-    const double theta = joint.theta_of(angles[j]);
     const double ca = joint.cos_alpha(), sa = joint.sin_alpha();
-    const double ct = std::cos(theta), st = std::sin(theta);
+    const double ct = cosine[j], st = sine[j];
     origin += joint.a_m * rotation.col(0);
     const Eigen::Vector3d y = ca * rotation.col(1) + sa * rotation.col(2);
     const Eigen::Vector3d z = ca * rotation.col(2) - sa * rotation.col(1);
@@ -60,6 +65,14 @@ Matrix6d jacobian(const RobotPose& pose, const Eigen::Vector3d& point) {
 
 double singularity_margin(const RobotPose& pose) {
   return Eigen::JacobiSVD<Matrix6d>(jacobian(pose, pose.tool.translation())).singularValues()[kJoints - 1];
+}
+
+bool is_away_from_singularities(const RobotPose& pose, double margin) {
+  if (!(margin > 0)) return true;
+  const Matrix6d j = jacobian(pose, pose.tool.translation());
+  // The least eigenvalue of J J^T against margin^2.
+  const Eigen::LLT<Matrix6d> factor(Matrix6d(j * j.transpose()) - margin * margin * Matrix6d::Identity());
+  return factor.info() == Eigen::Success;
 }
 
 double redundancy_angle(const Eigen::Isometry3d& tool) {

@@ -30,6 +30,9 @@ Eigen::Matrix<double, 3, kJoints> translational_jacobian(const RobotPose& pose, 
 /// The least singular value of the Jacobian at the tool point, lengths in metres: 0 at a singular pose.
 double singularity_margin(const RobotPose& pose);
 
+/// True when that is at least `margin`, decided by a Cholesky factorization, which costs a tenth.
+bool is_away_from_singularities(const RobotPose& pose, double margin);
+
 /// Angle (rad, -pi..pi) by which the tool's x axis is turned about the tool's z axis from where it is nearest
 /// to the base's x axis; where the tool axis is parallel to the base's x axis, nearest to its y axis.
 double redundancy_angle(const Eigen::Isometry3d& tool);

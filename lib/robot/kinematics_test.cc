@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "robot/arm_lanes.h"
 #include "robot/robot_fixtures_test.h"
 
 using namespace stablecut;
@@ -95,4 +96,36 @@ TEST_CASE("at 1.6 m the tool reaches a radius of 3.27 m in any orientation") {
     }
   }
   CHECK(farthest == Approx(3.27).margin(0.005));
+}
+
+TEST_CASE("sines and cosines of the kernel are those of the library to 3e-16") {
+  std::mt19937_64 generator(8);
+  double worst = 0;
+  for (int n = 0; n < 100000; ++n) {
+    double angle[8], sine[8], cosine[8];
+    const double range = n % 3 == 0 ? 1e5 : n % 3 == 1 ? 7 : 1e-3;
+    for (double& a : angle) a = uniform(generator, -range, range);
+    if (n == 0) angle[0] = 0;
+    if (n < 100) angle[1] = n * kPi / 4;
+    sines_and_cosines(angle, sine, cosine);
+    for (int i = 0; i < 8; ++i) {
+      worst =
+          std::max({worst, std::abs(sine[i] - std::sin(angle[i])), std::abs(cosine[i] - std::cos(angle[i]))});
+    }
+  }
+  CHECK(worst < 3e-16);
+}
+
+TEST_CASE("the quick test of the singularity margin agrees with the singular values") {
+  const Robot robot = kr360();
+  std::mt19937_64 generator(9);
+  for (int n = 0; n < 2000; ++n) {
+    JointAngles angles = random_angles(robot, generator);
+    if (n % 2 == 0) angles[4] *= 0.02;
+    const RobotPose pose = robot_pose(robot, angles);
+    const double exact = singularity_margin(pose);
+    CHECK(is_away_from_singularities(pose, exact * (1 - 1e-3)));
+    if (exact > 1e-4) CHECK_FALSE(is_away_from_singularities(pose, exact * (1 + 1e-3)));
+    CHECK(is_away_from_singularities(pose, 0));
+  }
 }

@@ -70,134 +70,138 @@ PoseScanner::PoseScanner(const Robot& robot, const PoseTask& task)
   }
   const double along = robot.tool_in_frame6().linear()(2, 2) > 0 ? 1 : -1;
   turn_sense_ = along * robot.joints[5].theta_sign;
-  for (int i = 0; i < task.redundancy.count; ++i) redundancy_.push_back(task.redundancy.at(i));
+  for (int i = 0; i < task.redundancy.count; ++i) {
+    const double turn = task.redundancy.at(i);
+    const Eigen::Isometry3d tool = tool_frame(Eigen::Vector3d::Zero(), task.tool_axis, turn);
+    samples_.push_back({turn, inverse_.target_of(tool), inverse_.home_from_base().linear() * tool.linear()});
+  }
 }
 
-void PoseScanner::collect(double x, double y, std::vector<Candidate>& candidates, PointScan& result) const {
-  const Eigen::Matrix3d to_home = inverse_.home_from_base().linear();
+// Calls use(candidate) for every sample and branch within reach that keeps the limit margin; the order is
+// that of the samples. Also finds what is nearest to the limits.
+template <typename Use>
+void PoseScanner::visit(double x, double y, PointScan& result, const Use& use) const {
   const Eigen::Vector3d point = task_.plane.at(x, y);
   const Eigen::Vector3d home_point = inverse_.home_from_base() * point;
-  const Eigen::Isometry3d first = tool_frame(point, task_.tool_axis, 0);
-  const Eigen::Vector3d x0 = to_home * first.linear().col(0), y0 = to_home * first.linear().col(1);
-  Eigen::Matrix3d axes;
-  axes.col(2) = to_home * first.linear().col(2);
   const StiffnessTask& stiffness = task_.stiffness;
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
-  if (stiffness.force_n && !stiffness.force_in_tool) force = to_home * *stiffness.force_n;
-
-  candidates.clear();
-  result.best_limit_margin_rad = -kInfinity;
+  if (stiffness.force_n && !stiffness.force_in_tool) {
+    force = inverse_.home_from_base().linear() * *stiffness.force_n;
+  }
+  const auto solve = [&](const Sample& sample, ArmLanes& lanes) {
+    ArmTarget target = sample.target;
+    for (int d = 0; d < 3; ++d) target.origin[d] += point[d];
+    solve_arms(inverse_.constants(), target, lanes);
+  };
   ArmLanes lanes;
   double compliance[6][kArms], merit[kArms];
-  double margin_of_five[kBranches], angle6[kBranches];
-  const auto use = [&](double margin, int sample, int branch) {
+  const auto score = [&](const Sample& sample) {
+    if (stiffness.force_n && stiffness.force_in_tool) force = sample.axes * *stiffness.force_n;
+    ArmScores(stiffness, compliance).merits(sample.axes, force, merit);
+  };
+  const auto offer = [&](double margin, int sample, int branch) {
     if (margin > result.best_limit_margin_rad) {
       result.best_limit_margin_rad = margin;
-      result.least_outside = {0, {x, y, redundancy_[static_cast<std::size_t>(sample)], branch}};
+      result.least_outside = {0, {x, y, samples_[static_cast<std::size_t>(sample)].turn, branch}};
     }
-    return margin >= task_.limit_margin_rad;
+    if (margin >= task_.limit_margin_rad) use(Candidate{merit[branch % kArms], margin, sample, branch});
   };
-  if (coaxial_) {
-    // Joint 6 alone turns the tool: one arm solution and one compliance for all redundancy angles.
-    solve_arms(inverse_.constants(), inverse_.target_of(first), lanes);
-    const ArmConstants& k = inverse_.constants();
-    bool any = false;
-    for (int b = 0; b < kBranches; ++b) {
-      margin_of_five[b] = std::isfinite(lanes.limit_margin[b]) ? kInfinity : -kInfinity;
-      for (int j = 0; j < 5; ++j) {
-        margin_of_five[b] =
-            std::min(margin_of_five[b], k.half_range[j] - std::abs(lanes.angle[j][b] - k.middle[j]));
+  const auto within = [&](const double margin[kBranches]) {
+    return std::any_of(margin, margin + kBranches, [&](double m) { return m >= task_.limit_margin_rad; });
+  };
+  const int count = static_cast<int>(samples_.size());
+  if (!coaxial_) {
+    for (int i = 0; i < count; ++i) {
+      const Sample& sample = samples_[static_cast<std::size_t>(i)];
+      solve(sample, lanes);
+      if (within(lanes.limit_margin)) {
+        arm_compliances(lanes, home_point.data(), task_.joint_compliance.data(), compliance);
+        score(sample);
       }
-      angle6[b] = lanes.angle[5][b];
-      any = any || margin_of_five[b] >= task_.limit_margin_rad;
-      if (margin_of_five[b] > result.best_limit_margin_rad) {
-        result.best_limit_margin_rad = margin_of_five[b];
-        result.least_outside = {0, {x, y, redundancy_.front(), b}};
-      }
-    }
-    if (!any) return;
-    result.best_limit_margin_rad = -kInfinity;
-    arm_compliances(lanes, home_point.data(), task_.joint_compliance.data(), compliance);
-    const ArmScores scores(stiffness, compliance);
-    const bool blind = stiffness.blind_to_tool_turn();
-    if (blind) scores.merits(axes, force, merit);
-    for (int sample = 0; sample < static_cast<int>(redundancy_.size()); ++sample) {
-      const double turn = redundancy_[static_cast<std::size_t>(sample)];
-      if (!blind) {
-        const double c = std::cos(turn), s = std::sin(turn);
-        axes.col(0) = c * x0 + s * y0;
-        axes.col(1) = c * y0 - s * x0;
-        if (stiffness.force_n && stiffness.force_in_tool) force = axes * *stiffness.force_n;
-        scores.merits(axes, force, merit);
-      }
-      for (int b = 0; b < kBranches; ++b) {
-        if (margin_of_five[b] < task_.limit_margin_rad) continue;
-        double q6 = angle6[b] + turn_sense_ * turn;
-        q6 += kTwoPi * std::nearbyint((k.middle[5] - q6) / kTwoPi);
-        const double margin = std::min(margin_of_five[b], k.half_range[5] - std::abs(q6 - k.middle[5]));
-        if (use(margin, sample, b)) candidates.push_back({merit[b % kArms], margin, sample, b});
-      }
+      for (int b = 0; b < kBranches; ++b) offer(lanes.limit_margin[b], i, b);
     }
     return;
   }
-  for (int sample = 0; sample < static_cast<int>(redundancy_.size()); ++sample) {
-    const double turn = redundancy_[static_cast<std::size_t>(sample)];
-    solve_arms(inverse_.constants(), inverse_.target_of(tool_frame(point, task_.tool_axis, turn)), lanes);
-    bool any = false;
-    for (int b = 0; b < kBranches; ++b) any = use(lanes.limit_margin[b], sample, b) || any;
-    if (!any) continue;
-    const double c = std::cos(turn), s = std::sin(turn);
-    axes.col(0) = c * x0 + s * y0;
-    axes.col(1) = c * y0 - s * x0;
-    if (stiffness.force_n && stiffness.force_in_tool) force = axes * *stiffness.force_n;
-    arm_compliances(lanes, home_point.data(), task_.joint_compliance.data(), compliance);
-    ArmScores(stiffness, compliance).merits(axes, force, merit);
+  // Joint 6 alone turns the tool: one arm solution and one compliance for all redundancy angles.
+  const ArmConstants& k = inverse_.constants();
+  solve(samples_.front(), lanes);
+  double margin_of_five[kBranches];
+  for (int b = 0; b < kBranches; ++b) {
+    margin_of_five[b] = std::isfinite(lanes.limit_margin[b]) ? kInfinity : -kInfinity;
+    for (int j = 0; j < 5; ++j) {
+      margin_of_five[b] =
+          std::min(margin_of_five[b], k.half_range[j] - std::abs(lanes.angle[j][b] - k.middle[j]));
+    }
+  }
+  if (!within(margin_of_five)) {
+    for (int b = 0; b < kBranches; ++b) offer(lanes.limit_margin[b], 0, b);
+    return;
+  }
+  arm_compliances(lanes, home_point.data(), task_.joint_compliance.data(), compliance);
+  score(samples_.front());
+  for (int i = 0; i < count; ++i) {
+    const Sample& sample = samples_[static_cast<std::size_t>(i)];
+    if (i > 0 && !stiffness.blind_to_tool_turn()) score(sample);
     for (int b = 0; b < kBranches; ++b) {
-      if (lanes.limit_margin[b] >= task_.limit_margin_rad) {
-        candidates.push_back({merit[b % kArms], lanes.limit_margin[b], sample, b});
-      }
+      double q6 = lanes.angle[5][b] + turn_sense_ * (sample.turn - samples_.front().turn);
+      q6 += kTwoPi * std::nearbyint((k.middle[5] - q6) / kTwoPi);
+      offer(std::min(margin_of_five[b], k.half_range[5] - std::abs(q6 - k.middle[5])), i, b);
     }
   }
 }
 
+bool PoseScanner::better(const Candidate& a, const Candidate& b) const {
+  if (a.merit != b.merit) return a.merit > b.merit;
+  if (a.limit_margin != b.limit_margin) return a.limit_margin > b.limit_margin;
+  return std::abs(samples_[static_cast<std::size_t>(a.sample)].turn) <
+         std::abs(samples_[static_cast<std::size_t>(b.sample)].turn);
+}
+
+ScanBest PoseScanner::place_of(const Candidate& candidate, double x, double y) const {
+  return {candidate.merit,
+          {x, y, samples_[static_cast<std::size_t>(candidate.sample)].turn, candidate.branch}};
+}
+
+bool PoseScanner::away_from_singularities(const PlanePoint& at) const {
+  if (!(task_.singularity_margin > 0)) return true;
+  const auto evaluation = evaluate(at);
+  return evaluation &&
+         is_away_from_singularities(robot_pose(robot_, evaluation->angles), task_.singularity_margin);
+}
+
 PointScan PoseScanner::scan(double x, double y) const {
-  thread_local std::vector<Candidate> candidates;
   PointScan result;
-  collect(x, y, candidates, result);
-  const auto size_of_turn = [&](const Candidate& c) {
-    return std::abs(redundancy_[static_cast<std::size_t>(c.sample)]);
-  };
-  const auto better = [&](const Candidate& a, const Candidate& b) {
-    if (a.merit != b.merit) return a.merit > b.merit;
-    if (a.limit_margin != b.limit_margin) return a.limit_margin > b.limit_margin;
-    return size_of_turn(a) < size_of_turn(b);
-  };
-  for (int arm = 0; arm < kArms; ++arm) {
-    // The best one that is away from singularities; mostly the first that is looked at.
-    for (;;) {
-      Candidate* best = nullptr;
-      for (Candidate& candidate : candidates) {
-        if (candidate.branch % kArms == arm && candidate.merit > -kInfinity &&
-            (!best || better(candidate, *best))) {
-          best = &candidate;
-        }
-      }
-      if (!best) break;
-      const PlanePoint at{x, y, redundancy_[static_cast<std::size_t>(best->sample)], best->branch};
-      if (task_.singularity_margin > 0) {
-        const auto evaluation = evaluate(at);
-        if (!evaluation ||
-            singularity_margin(robot_pose(robot_, evaluation->angles)) < task_.singularity_margin) {
-          if (coaxial_) break;  // joint 6 does not change the singular values either
-          best->merit = -kInfinity;
-          continue;
-        }
-      }
-      result.arms[static_cast<std::size_t>(arm)] = ScanBest{best->merit, at};
-      break;
+  result.best_limit_margin_rad = -kInfinity;
+  std::array<std::optional<Candidate>, kArms> best;
+  visit(x, y, result, [&](const Candidate& candidate) {
+    auto& arm = best[static_cast<std::size_t>(candidate.branch % kArms)];
+    if (!arm || better(candidate, *arm)) arm = candidate;
+  });
+  for (std::size_t arm = 0; arm < kArms; ++arm) {
+    if (!best[arm]) continue;
+    const ScanBest place = place_of(*best[arm], x, y);
+    if (away_from_singularities(place.at)) {
+      result.arms[arm] = place;
+    } else if (!coaxial_) {  // else joint 6 does not change the singular values either
+      result.arms[arm] = next_best(x, y, static_cast<int>(arm));
     }
   }
   return result;
+}
+
+std::optional<ScanBest> PoseScanner::next_best(double x, double y, int arm) const {
+  std::vector<Candidate> candidates;
+  PointScan ignored;
+  visit(x, y, ignored, [&](const Candidate& candidate) {
+    if (candidate.branch % kArms == arm) candidates.push_back(candidate);
+  });
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [&](const Candidate& a, const Candidate& b) { return better(a, b); });
+  for (const Candidate& candidate : candidates) {
+    const ScanBest place = place_of(candidate, x, y);
+    if (away_from_singularities(place.at)) return place;
+  }
+  return std::nullopt;
 }
 
 std::optional<PoseScanner::Evaluation> PoseScanner::evaluate(const PlanePoint& at) const {

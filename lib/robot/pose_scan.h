@@ -55,14 +55,25 @@ class PoseScanner {
     double merit, limit_margin;
     int sample, branch;
   };
-  void collect(double x, double y, std::vector<Candidate>& candidates, PointScan& result) const;
+  template <typename Use>
+  void visit(double x, double y, PointScan& result, const Use& use) const;
+  bool better(const Candidate& a, const Candidate& b) const;
+  ScanBest place_of(const Candidate& candidate, double x, double y) const;
+  bool away_from_singularities(const PlanePoint& at) const;
+  /// The best of an arm that is away from singularities, where the best of all is not.
+  std::optional<ScanBest> next_best(double x, double y, int arm) const;
 
   const Robot& robot_;
   const PoseTask& task_;
   InverseKinematics inverse_;
   bool coaxial_;
-  double turn_sense_;               // of controller angle 6 against the redundancy angle, coaxial tool
-  std::vector<double> redundancy_;  // samples
+  double turn_sense_;  // of controller angle 6 against the redundancy angle, coaxial tool
+  struct Sample {
+    double turn;           // redundancy angle, rad
+    ArmTarget target;      // for a tool point at the base's origin
+    Eigen::Matrix3d axes;  // of the tool, home frame
+  };
+  std::vector<Sample> samples_;
 };
 
 }  // namespace stablecut
