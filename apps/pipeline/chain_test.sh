@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The chain: a noisy tap test in, the verdicts of the noise-free table out.
+# The chains: a noisy tap test in, the verdicts of the noise-free table out; load samples in, the stiffest pose out.
 . "$SOURCE/apps/testing.sh"
 table=$data/thesis-table-6-2.json
 lobes=(sdm-lobes --cut "$data/thesis-cut.json" --points "$data/thesis-table-6-3.csv" --speed 9000:9000:1 --depth 1:1:1)
@@ -13,3 +13,10 @@ done
 check_jq "provenance reaches back through the pipe" noisy.json '[.provenance.inputs[] | select(.from) | .from.tool,
   (.from.inputs[] | select(.from) | .from.tool, (.from.inputs[].sha256))] == ["fit-modes", "fit-modes", $sha]' \
   --arg sha "$(sha256sum "$table" | cut -d' ' -f1)"
+
+robot=$data/kr360.json
+joint-stiffness --robot "$robot" "$data/kr360-loads.csv" |
+  best-pose --robot "$robot" --height 1600 --index deflection --force 0,0,-588.6 --limit-margin 0 --quiet -o pose.json
+check_jq "the stiffest pose from noisy samples, within three of its deviations" pose.json '.best |
+  .score_std > 0 and (.score - 197.3 | fabs) < 3 * .score_std and (.joints_deg[1] + 130 | fabs) < 1e-6'
+check_jq "provenance of samples and robot" pose.json '[.provenance.inputs[] | .name, (.from // {} | .inputs // [] | .[].name)] | length == 4'

@@ -5,15 +5,20 @@ scripts=$SOURCE/scripts
 sdm-lobes "$data/thesis-table-6-2.json" --cut "$data/thesis-cut.json" --points "$data/thesis-table-6-3.csv" \
   --speed 5000:20000:12 --depth 0:4:9 -o lobes.json
 fit-modes --synthesize 2:1000:200 "$data/thesis-table-6-2.json" -o frf.json
-for plot in lobes frf; do
+robot=$data/kr360.json
+jq '{format: "stablecut/joint-stiffness/1", stiffness_n_m_per_rad: .k_theta_2d_n_m_per_rad}' "$data/yanshan-poses.json" >k2d.json
+best-pose --robot "$robot" --height 1600 --x=-2600:2600:14 --y=-2600:2600:14 --map pose-map.json k2d.json -o pose.json
+for plot in lobes frf pose-map; do
   for form in svg png; do
     "$scripts/plot-$plot" $plot.json -o $plot.$form 2>.err
     check "plot-$plot to $form" test $? -eq 0 -a -s $plot.$form -a ! -s .err
   done
   check "plot-$plot: SVG" grep -q '</svg>' $plot.svg
   check "plot-$plot: PNG" test "$(head -c 4 $plot.png | tail -c 3)" = PNG
-  "$scripts/plot-$plot" --terminal <$plot.json >text
-  check "plot-$plot in a terminal" grep -q 'o\|\.' text
+  if [ $plot != pose-map ]; then
+    "$scripts/plot-$plot" --terminal <$plot.json >text
+    check "plot-$plot in a terminal" grep -q 'o\|\.' text
+  fi
   refused 64 "^plot-$plot: --nonsense: unknown option" "$scripts/plot-$plot" --nonsense
   refused 64 "^plot-$plot: x.pdf: expected a name that ends in .svg or .png" "$scripts/plot-$plot" $plot.json -o x.pdf
   refused 66 "^plot-$plot: missing.json: cannot be read" "$scripts/plot-$plot" missing.json -o x.svg
@@ -25,3 +30,14 @@ check "measured and fitted, real and imaginary" grep -q 'Im H' both.svg
 sdm-lobes "$data/thesis-table-6-2.json" --cut "$data/thesis-cut.json" --speed 9000:9000:1 --depth 0.1:0.1:1 --limit-only |
   "$scripts/plot-lobes" -o stable.svg
 check "a chart without a limit says so" grep -q 'stable over the whole chart' stable.svg
+
+"$scripts/plot-pose-map" pose-map.json --pose pose.json -o marked.svg
+check "best pose and unit" grep -q 'best pose' marked.svg
+best-pose --robot "$robot" --height 1600 --x=-2600:2600:14 --y=-2600:2600:14 --redundancy 30:30:1 --map turned.json k2d.json -o pose.json
+"$scripts/plot-pose-map" --directional pose-map.json turned.json -o directional.svg
+check "directional maps name axis and angle" grep -q 'redundancy angle 30 deg' directional.svg
+refused 64 '^plot-pose-map: expected one input, or --directional' "$scripts/plot-pose-map" pose-map.json turned.json -o x.svg
+refused 64 '^plot-pose-map: expected -o with a name' "$scripts/plot-pose-map" --terminal pose-map.json
+refused 65 '^plot-pose-map: pose.json: /format: stablecut/pose/1: expected stablecut/pose-map/1' "$scripts/plot-pose-map" pose.json -o x.svg
+best-pose --robot "$robot" --height 1600 --x 0:100:2 --y 1500:1500:1 --index deflection --force 0,0,-9 --quiet --map line.json k2d.json -o pose.json
+check "a map of a line" "$scripts/plot-pose-map" line.json -o line.svg

@@ -5,6 +5,7 @@ import os
 import pathlib
 import subprocess
 import sys
+import tempfile
 
 from jsonschema import Draft202012Validator
 
@@ -41,11 +42,12 @@ for kind, schema in schemas.items():
     Draft202012Validator.check_schema(schema)
     constant = schema["properties"]["format"]["const"]
     check(f"{kind}: names itself", [] if constant == f"stablecut/{kind}/1" else [ValueError(constant)])
-    for tool in ("fit-modes", "sdm-lobes"):
+    for tool in ("fit-modes", "sdm-lobes", "joint-stiffness", "best-pose"):
         printed = run(tool, "--print-schema", kind)
         check(f"{tool} prints {kind}", [] if printed == schema else [ValueError("another schema")])
 
-bundled = [path for path in (source / "testdata").rglob("*.json")]
+# Documents have a format; the other files are the papers' and the controller's numbers.
+bundled = [path for path in (source / "testdata").rglob("*.json") if "format" in json.loads(path.read_text())]
 assert bundled, "no bundled documents found"
 for path in bundled:
     validate(path.name, json.loads(path.read_text()))
@@ -62,10 +64,43 @@ documents = {
                  str(source / "testdata/thesis-table-6-3.csv"), table),
     "lobes by sdm, limit only": run("sdm-lobes", "--cut", cut, *chart, "--method", "sdm", "--limit-only", table),
 }
+
+papers = json.loads((source / "testdata/yanshan-poses.json").read_text())
+robot = ["--robot", str(source / "testdata/kr360.json"), "--quiet"]
+stiffness = run("joint-stiffness", *robot, str(source / "testdata/kr360-loads.csv"))
+partial = {"format": "stablecut/joint-stiffness/1", "stiffness_n_m_per_rad": papers["k_theta_2d_n_m_per_rad"][:5] + [None]}
+poses = {"format": "stablecut/pose-list/1", "poses": [{"joints_deg": pose["joints_deg"]} for pose in papers["height_1600_mm"]]
+         + [{"joints_deg": [0, -60, 0, 0, 0, 0]}]}
+with tempfile.TemporaryDirectory() as folder:
+    list_path, map_path = pathlib.Path(folder) / "poses.json", pathlib.Path(folder) / "map.json"
+    list_path.write_text(json.dumps(poses))
+    search = ["best-pose", *robot, "--height", "1600", "--x", "0:2500:6", "--y", "0:2500:6", "--force", "0,0,-600"]
+    scored = run("best-pose", *robot, "--evaluate", str(list_path), stdin=json.dumps(stiffness))
+    documents |= {
+        "robot by URDF": run(str(source / "scripts/import-urdf"), str(source / "testdata/six-axis.urdf")),
+        "load samples": {"format": "stablecut/load-samples/1", "frame": "base", "samples": [
+            {"joints_deg": pose["joints_deg"], "force_n": [0, 0, -600], "deflection_mm": [0, 0, -0.2], "std_mm": 0.01}
+            for pose in papers["height_1600_mm"]]},
+        "identified stiffness": stiffness,
+        "stiffness of the user": partial,
+        "poses": poses,
+        "plan": run("joint-stiffness", *robot, "--plan", "6", stdin=json.dumps(poses)),
+        "pose": run(*search, "--map", str(map_path), stdin=json.dumps(stiffness)),
+        "pose in any plane": run("best-pose", *robot, "--plane-origin", "2000,0,1500", "--plane-x", "0,1,0", "--plane-y",
+                                 "0,0,1", "--tool-axis", "1,0,0", stdin=json.dumps(stiffness)),
+        "evaluation": scored,
+        "pose map": json.loads(map_path.read_text()),
+    }
+documents["stiffness where one load leaves joints unseen"] = run(
+    "joint-stiffness", *robot, stdin=json.dumps(documents["load samples"]))
+required = {"frf": "h", "modal-table": "modes", "lobes": "limit", "robot": "tool", "load-samples": "samples",
+            "joint-stiffness": "stiffness_n_m_per_rad", "pose-list": "poses", "measurement-plan": "samples", "pose": "index",
+            "pose-map": "score"}
+assert set(required) | {"cut"} == set(schemas), "a kind without an example"
 for name, document in documents.items():
     validate(name, document)
     broken = dict(document)
-    del broken[{"frf": "h", "modal-table": "modes", "lobes": "limit"}[kind_of(document)]]
+    del broken[required[kind_of(document)]]
     validate(f"{name} with a field missing", broken, valid=False)
 
 print(f"{passed} passed, {failed} failed")
