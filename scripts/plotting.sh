@@ -40,14 +40,17 @@ plot_options() {
   trap 'rm -rf "$work"' EXIT
 }
 
-# plot_input PATH KIND NAME: checks the document's kind and copies it to $work/NAME.
+# plot_input PATH KIND NAME: checks the document's kind and copies it to $work/NAME, without provenance and with letters,
+# digits and harmless signs for strings: they end up in gnuplot's commands.
 plot_input() {
   local shown=$1
-  if [ "$1" = - ]; then shown="<stdin>"; cat >"$work/$3"
-  else cat -- "$1" >"$work/$3" 2>/dev/null || plot_fail "$1: cannot be read" 66; fi
+  if [ "$1" = - ]; then shown="<stdin>"; cat >"$work/raw"
+  else cat -- "$1" >"$work/raw" 2>/dev/null || plot_fail "$1: cannot be read" 66; fi
   local format
-  format=$(jq -r '.format? // "none"' "$work/$3" 2>/dev/null) || plot_fail "$shown: not JSON: expected stablecut/$2/1" 65
+  format=$(jq -r '.format? // "none"' "$work/raw" 2>/dev/null) || plot_fail "$shown: not JSON: expected stablecut/$2/1" 65
   [ "$format" = "stablecut/$2/1" ] || plot_fail "$shown: /format: ${format:-nothing}: expected stablecut/$2/1" 65
+  jq -c 'del(.provenance) | walk(if type == "string" then gsub("[^A-Za-z0-9 _.,:/^+*()=%-]"; "?") else . end)' "$work/raw" >"$work/$3"
+  rm "$work/raw"
 }
 
 # plot_terminal WIDTH HEIGHT: the set terminal line, for the form.
@@ -65,7 +68,8 @@ plot_terminal() {
 
 # plot_run: runs $work/plot.gp and puts the picture where it belongs, whole.
 plot_run() {
-  (cd "$work" && gnuplot plot.gp) >"$work/picture" 2>"$work/messages" || { cat "$work/messages" >&2; plot_fail "gnuplot failed" 70; }
+  (cd "$work" && gnuplot plot.gp) >"$work/picture" 2>"$work/messages" ||
+    plot_fail "gnuplot failed: $(grep -v '^ *^\?$' "$work/messages" | tail -n 1)" 70
   if [ "$output" = - ]; then cat "$work/picture"
-  else cp "$work/picture" "$output.part" && mv "$output.part" "$output" || plot_fail "$output: cannot be created" 73; fi
+  else { cp "$work/picture" "$output.part" && mv "$output.part" "$output"; } 2>/dev/null || plot_fail "$output: cannot be created" 73; fi
 }

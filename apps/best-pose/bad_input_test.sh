@@ -51,6 +51,8 @@ refused 64 '^best-pose: --map: expected a search' best-pose --robot "$robot" --e
 refused 64 '^best-pose: --assume: A1: expected JOINT=K' "${search[@]}" --assume A1 k2d.json
 refused 64 '^best-pose: same.json: expected another output' "${search[@]}" --map same.json -o same.json k2d.json
 refused 64 'at most 4000000 points' "${search[@]}" --x 0:1:3000 --y 0:1:3000 k2d.json
+refused 74 '^best-pose: /dev/full: cannot be written' "${search[@]}" --map /dev/full k2d.json
+refused 64 '^best-pose: --force: .*below 1e9 N' "${search[@]}" --force 0,0,1e308 k2d.json
 refused 73 '^best-pose: none/map.json: cannot be created' "${search[@]}" --map none/map.json -o result.json k2d.json
 refused 66 '^best-pose: none.json: cannot be read' best-pose --robot "$robot" --evaluate none.json k2d.json
 check "nothing was written" test ! -e result.json -a ! -e same.json

@@ -17,6 +17,18 @@ check "a search runs on it" best-pose --robot robot.json --height 900 k.json -o 
 "$import" --tip flange <"$urdf" >flange.json
 check_jq "another tip" flange.json '.flange.rotation != $robot[0].flange.rotation' --slurpfile robot robot.json
 
+# Rounded right angles, and a wrist that nearly meets, are what they stand for.
+sed 's/1.57079632679/1.5708/; /joint_a4/s/rpy="0 0 0"/rpy="0 -0.0000036732 0"/; s/xyz="0 0 0.675" rpy="0 0 0"/xyz="0 0 0.675" rpy="3.14159 0 0"/' "$urdf" >rounded.urdf
+"$import" rounded.urdf -o rounded.json 2>.err
+check "a warning says so" grep -q '^import-urdf: warning: rounded.urdf: angles up to .* made right' .err
+check_jq "right angles" rounded.json '[.joints[].alpha_deg] | all(. % 90 == 0 and . == floor)'
+check "a search runs on them" best-pose --robot rounded.json --height=-900 k.json -o best.json
+# A fixed last link belongs to the chain; a world below base_link does not.
+sed 's/link name="tool0"/link name="hand"/; s/child link="tool0"/child link="hand"/; s/link name="flange"/link name="plate"/; s/link="flange"/link="plate"/
+  s/<joint name="fix" type="fixed">/<joint name="fix" type="fixed"><origin xyz="1 2 0.5" rpy="0 0 1"\/>/' "$urdf" >world.urdf
+"$import" world.urdf -o world.json
+check_jq "the same robot" world.json '.joints == $robot[0].joints and .flange == $robot[0].flange' --slurpfile robot robot.json
+
 bad_urdf() {
   sed "$1" "$urdf" >bad.urdf
   refused 65 "^import-urdf: bad.urdf: $2" "$import" bad.urdf -o result.json

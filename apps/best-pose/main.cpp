@@ -25,6 +25,7 @@ constexpr double kDefaultLimitMarginDeg = 2;
 constexpr double kDefaultSingularityMargin = 0.01;
 constexpr Range kDefaultRedundancyDeg{-180, 175, 72};
 constexpr int kDefaultAlternatives = 5;
+constexpr double kLargestForce = 1e9;
 constexpr int kMostPoints = 4'000'000;
 
 class BestPose : public cli::Tool {
@@ -131,7 +132,10 @@ class BestPose : public cli::Tool {
     if (index_ == "deflection") task.index = StiffnessIndex::kDeflection;
     if (force_) {
       task.force_n = Eigen::Vector3d(force_->data());
-      if (task.force_n->norm() == 0) throw usage("--force: 0,0,0: expected a force that is not zero");
+      if (task.force_n->isZero(0)) throw usage("--force: 0,0,0: expected a force that is not zero");
+      if (!(task.force_n->lpNorm<Eigen::Infinity>() < kLargestForce)) {
+        throw usage("--force: expected components below 1e9 N");
+      }
     }
     if (task.index == StiffnessIndex::kDeflection && !force_) {
       throw usage("--force: missing: expected a force for the index deflection");
@@ -144,8 +148,8 @@ class BestPose : public cli::Tool {
                                    const std::string& name) {
     if (!value) return otherwise;
     const Eigen::Vector3d v(value->data());
-    if (!(v.norm() > 0)) throw usage(name + ": 0,0,0: expected a direction");
-    return v.normalized();
+    if (v.isZero(0)) throw usage(name + ": 0,0,0: expected a direction");
+    return v.stableNormalized();
   }
 
   PlaneDocument plane_document() const {

@@ -32,7 +32,7 @@ samples_with '.frame = "tool"' '/frame: "tool": expected "base"'
 samples_with '.samples = []' '/samples: a list of 0: expected'
 samples_with '.samples[1].joints_deg = [1, 2]' '/samples/1/joints_deg: a list of 2: expected 6'
 samples_with '.samples[1].joints_deg[3] = "x"' '/samples/1/joints_deg/3: "x": expected'
-samples_with '.samples[0].force_n = [1, 2, null]' '/samples/0/force_n/2: null: expected a finite number'
+samples_with '.samples[0].force_n = [1, 2, null]' '/samples/0/force_n/2: null: expected a force'
 samples_with '.samples[0].deflection_mm[0] = null' '/samples/0/deflection_mm/0: null: expected'
 samples_with 'del(.samples[0].deflection_mm)' '/samples/0/deflection_mm: missing'
 samples_with '.samples[0].deflection_um = [1, 2, 3]' '/samples/0/deflection_um: unknown field: expected deflection_mm'
@@ -60,6 +60,9 @@ csv_is 'A1,A2,A3,A4,A5,A6,Fx,Fy,Fz,dx,dy,dz [inch]\n1,2\n' 'line 1: "dz \[inch\]
 csv_is 'A1,A2,A3,A4,A5,A6,Fx,Fy,Fz,dx,dy,dz,dz_um\n1,2\n' 'line 1: "dz_um": expected each column once'
 csv_is '1,2,3\n' 'line 1: 3 columns: expected a header, or 12 columns'
 csv_is "A1,A2,A3,A4,A5,A6,Fx,Fy,Fz,dx,dy,dz,std\n1,2,3,4,5,6,0,0,9,1,2,3,0\n" 'line 2: 0: expected a standard deviation above 0'
+csv_is "${header}1,5,2,5,3,5,4,5,5,5,6,5,0,0,9,1,2,3\n" 'line 2: 18 columns: expected 12'
+csv_is "A1,A2,A3,A4,A5,A6,Fx,Fy,Fz,dx,dy,dz,rx\n1,2,3,4,5,6,0,0,9,1,2,3,0\n" 'line 1: expected a column ry'
+csv_is "A1,A2,A3,A4,A5,A6,Fx,Fy,Fz,dx,dy,dz,force_point_x\n1,2,3,4,5,6,0,0,9,1,2,3,0\n" 'line 1: expected a column force_point_y'
 refused 65 '^joint-stiffness: loads.json: line 1:' joint-stiffness --robot "$robot" --from csv loads.json
 refused 65 '^joint-stiffness: loads.csv: line 1' joint-stiffness --robot "$robot" --from json loads.csv
 

@@ -1,7 +1,9 @@
 // joint-stiffness: loads and deflections at robot poses in, joint stiffness out; or the poses and loads to
 // measure.
 
+#include <algorithm>
 #include <array>
+#include <cstdio>
 #include <optional>
 
 #include "base/error.h"
@@ -97,6 +99,7 @@ class JointStiffnessTool : public cli::Tool {
     const LoadSamplesDocument samples =
         csv ? load_samples_from_csv(input.source, robot, components_)
             : load_samples_from_json(input.document, input.source, robot, components_);
+    warn_of_units(samples.samples, input.source.name);
     IdentificationDocument document;
     document.options = {loss_ == "huber", components_};
     document.places = samples.places;
@@ -128,6 +131,18 @@ class JointStiffnessTool : public cli::Tool {
       warn(input.source.name + ": " + samples.places[static_cast<std::size_t>(outlier.sample)] + ": " + text);
     }
     write_document(main_output(), identification_to_json(document, robot));
+  }
+
+  // A robot under test gives by micrometres to millimetres.
+  void warn_of_units(const std::vector<LoadSample>& samples, const std::string& name) const {
+    double largest = 0;
+    for (const LoadSample& sample : samples) largest = std::max(largest, sample.deflection_m.norm());
+    if (largest > 0.02 || (largest > 0 && largest < 1e-6)) {
+      char text[80];
+      std::snprintf(text, sizeof text, ": the largest deflection is %.3g mm: are the units right?",
+                    largest * 1e3);
+      warn(name + text);
+    }
   }
 
   void plan(const Robot& robot) {

@@ -48,6 +48,16 @@ jq -r '.samples[] | [.joints_deg[], .force_n[], .deflection_mm[]] | @csv' loads.
   joint-stiffness --robot "$robot" --quiet -o found.json
 check_jq "twelve bare columns give the truth" found.json "$close_to_truth" --slurpfile truth truth.json
 
+sed 's/;/\t/g' loads.csv | awk -F'\t' -v OFS='\t' 'NR == 1 {print; next} {$1 = ""; print}' >no-z.csv
+joint-stiffness --robot "$robot" --quiet --components xy no-z.csv -o found.json
+check_jq "cells of components that are not used may be empty" found.json "$close_to_truth" --slurpfile truth truth.json
+joint-stiffness --robot "$robot" loads.csv -o found.json 2>.err
+check "no word on units where they are right" test "$(grep -c units .err)" -eq 0
+jq '.samples[].deflection_mm |= map(. * 1000)' loads.json | joint-stiffness --robot "$robot" -o found.json 2>.err
+check "micrometres taken for millimetres are noticed" grep -q 'the largest deflection is .* mm: are the units right' .err
+jq '.samples[].deflection_mm |= map(-.)' loads.json >back.json
+refused 1 'the deflections point against the loads' joint-stiffness --robot "$robot" back.json
+
 # The bundled noisy samples.
 joint-stiffness --robot "$robot" "$data/kr360-loads.csv" -o noisy.json
 check_jq "noisy samples: within four deviations" noisy.json '[.stiffness_n_m_per_rad, .std_n_m_per_rad, $truth[0].stiffness_n_m_per_rad] | transpose |

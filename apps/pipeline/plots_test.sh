@@ -38,6 +38,17 @@ best-pose --robot "$robot" --height 1600 --x=-2600:2600:14 --y=-2600:2600:14 --r
 check "directional maps name axis and angle" grep -q 'redundancy angle 30 deg' directional.svg
 refused 64 '^plot-pose-map: expected one input, or --directional' "$scripts/plot-pose-map" pose-map.json turned.json -o x.svg
 refused 64 '^plot-pose-map: expected -o with a name' "$scripts/plot-pose-map" --terminal pose-map.json
+# Strings of a document never reach gnuplot as commands.
+jq '.index.name = "a\u0027; system \"touch pwned\" #"' pose-map.json >evil.json
+"$scripts/plot-pose-map" evil.json -o evil.svg
+check "no command runs" test ! -e pwned -a -s evil.svg
+jq '.score = .score[1:]' pose-map.json >short.json
+refused 65 '^plot-pose-map: short.json: /score: expected a row' "$scripts/plot-pose-map" short.json -o x.svg
+refused 73 '^plot-pose-map: none/x.svg: cannot be created' "$scripts/plot-pose-map" pose-map.json -o none/x.svg
+best-pose --robot "$robot" --plane-origin 1800,0,1500 --plane-x 0,1,0 --plane-y 0,0,1 --tool-axis 1,0,0 --x=-900:900:9 --y=-900:900:9 \
+  --map wall.json k2d.json -o wall-pose.json
+check "a wall, its best pose in its own coordinates" "$scripts/plot-pose-map" wall.json --pose wall-pose.json -o wall.png
+refused 65 '^plot-pose-map: wall-pose.json: /height_mm: expected a search in the plane of the map' "$scripts/plot-pose-map" pose-map.json --pose wall-pose.json -o x.svg
 refused 65 '^plot-pose-map: pose.json: /format: stablecut/pose/1: expected stablecut/pose-map/1' "$scripts/plot-pose-map" pose.json -o x.svg
 best-pose --robot "$robot" --height 1600 --x 0:100:2 --y 1500:1500:1 --index deflection --force 0,0,-9 --quiet --map line.json k2d.json -o pose.json
 check "a map of a line" "$scripts/plot-pose-map" line.json -o line.svg

@@ -80,4 +80,9 @@ double student_t_quantile(double p, double dof) {
 
 double chi_square_tail(double x, double dof) { return upper_gamma(0.5 * dof, 0.5 * x); }
 
+double f_tail(double x, double numerator, double denominator) {
+  if (std::isinf(denominator)) return chi_square_tail(x * numerator, numerator);
+  return incomplete_beta(denominator / (denominator + numerator * x), 0.5 * denominator, 0.5 * numerator);
+}
+
 }  // namespace stablecut

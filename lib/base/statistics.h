@@ -16,4 +16,7 @@ double student_t_quantile(double p, double dof);
 /// Probability that a chi-square variable with `dof` > 0 degrees of freedom exceeds x.
 double chi_square_tail(double x, double dof);
 
+/// Probability that an F variable with `numerator` and `denominator` degrees of freedom exceeds x.
+double f_tail(double x, double numerator, double denominator);
+
 }  // namespace stablecut

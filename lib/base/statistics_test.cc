@@ -27,5 +27,8 @@ TEST_CASE("closed forms of the distributions") {
   for (const double x : {0.1, 1.0, 5.0, 40.0})
     CHECK(chi_square_tail(x, 2) == Approx(std::exp(-x / 2)).epsilon(1e-12));
   CHECK(chi_square_tail(18.3070380533, 10) == Approx(0.05).epsilon(1e-9));
+  // F: 5 % above 4.256 with (2, 9); the square of Student's t with (1, n).
+  CHECK(f_tail(4.2564947291, 2, 9) == Approx(0.05).epsilon(1e-8));
+  CHECK(f_tail(4, 1, 7) == Approx(2 * (1 - student_t_cdf(2, 7))).epsilon(1e-10));
   CHECK(normal_cdf(1.95996398454) == Approx(0.975).epsilon(1e-10));
 }

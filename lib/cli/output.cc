@@ -122,12 +122,9 @@ void OutputSet::commit() {
   for (Item& item : items_) {
     if (item.path != "-") prepare(item);
   }
+  // Devices and pipes before standard output, which gets nothing when one of them fails.
   for (const Item& item : items_) {
-    if (!item.temporary.empty()) continue;
-    if (item.path == "-") {
-      write_all(STDOUT_FILENO, item.text, "<stdout>");
-      continue;
-    }
+    if (!item.temporary.empty() || item.path == "-") continue;
     const int file = open(item.path.c_str(), O_WRONLY | O_CLOEXEC);
     if (file < 0) fail(ExitStatus::kCannotCreate, item.path, "cannot be created");
     try {
@@ -137,6 +134,9 @@ void OutputSet::commit() {
       throw;
     }
     if (close(file) != 0) fail(ExitStatus::kIo, item.path, "cannot be written");
+  }
+  for (const Item& item : items_) {
+    if (item.path == "-") write_all(STDOUT_FILENO, item.text, "<stdout>");
   }
   for (Item& item : items_) {
     if (item.temporary.empty()) continue;

@@ -9,6 +9,8 @@ namespace {
 
 constexpr Bound kDeviation{.least = 0, .open_least = true, .words = "a standard deviation above 0"};
 
+constexpr Bound kLoad{.least = -1e9, .most = 1e9, .words = "a force in N or a moment in N m"};
+
 // One number for all directions or one for each.
 Eigen::Vector3d deviations_from(const Node& node) {
   if (node.json().is_array()) return vector_from(node, kDeviation);
@@ -39,9 +41,9 @@ LoadSamplesDocument load_samples_from_json(const Json& document, const Source& s
                       "force_point_mm", "measuring_point_mm", "std_mm", "std_rad"});
     LoadSample sample;
     sample.angles = joint_angles_from(item.at("joints_deg"));
-    sample.force_n = vector_from(item.at("force_n"));
+    sample.force_n = vector_from(item.at("force_n"), kLoad);
     sample.deflection_m = measured(item.at("deflection_mm"), components) * 1e-3;
-    if (const auto moment = item.find("moment_n_m")) sample.moment_n_m = vector_from(*moment);
+    if (const auto moment = item.find("moment_n_m")) sample.moment_n_m = vector_from(*moment, kLoad);
     if (const auto rotation = item.find("rotation_rad")) sample.rotation_rad = vector_from(*rotation);
     const Eigen::Vector3d tool_point = robot.tool.translation();
     const auto point = [&](const char* name) {

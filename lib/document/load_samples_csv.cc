@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cctype>
+#include <cstring>
 #include <optional>
 #include <string>
 
@@ -60,11 +61,13 @@ std::pair<std::string, std::string> name_and_unit(std::string header, const std:
   for (const char c : header) {
     if (std::isalnum(static_cast<unsigned char>(c))) name += c;
   }
-  std::string plain_unit;
-  for (const char c : unit) {
-    if (c != ' ' && c != '_' && c != '*' && c != '.') plain_unit += c;
+  // Micro signs (of UTF-8, Greek, Latin-1) are u; other signs, such as the dot of N.m, are dropped.
+  for (const char* micro : {"\xC2\xB5", "\xCE\xBC", "\xB5"}) {
+    if (const auto at = unit.find(micro); at != std::string::npos) unit.replace(at, std::strlen(micro), "u");
   }
-  return {name, plain_unit};
+  if (unit.find("\xC2\xB0") != std::string::npos) unit = "deg";
+  std::erase_if(unit, [](unsigned char c) { return !std::isalnum(c) || c > 127; });
+  return {name, unit};
 }
 
 struct Known {
@@ -79,7 +82,7 @@ const std::vector<Known>& known_columns() {
       {Quantity::kMoment, {"m", "moment", "t", "torque"}, {{"nm", 1}, {"nmm", 1e-3}, {"knm", 1e3}}},
       {Quantity::kDeflection,
        {"d", "u", "delta", "deflection", "displacement"},
-       {{"mm", 1e-3}, {"um", 1e-6}, {"\xc2\xb5m", 1e-6}, {"m", 1}}},
+       {{"mm", 1e-3}, {"um", 1e-6}, {"m", 1}}},
       {Quantity::kRotation,
        {"r", "rot", "rotation"},
        {{"rad", 1}, {"mrad", 1e-3}, {"urad", 1e-6}, {"deg", kPi / 180}}},
@@ -104,8 +107,7 @@ std::optional<Column> column_of(const std::string& header, const Robot& robot, b
                                                   "kn",   "n",   "urad",      "mrad", "rad", "deg",
                                                   "mm",   "um",  "\xc2\xb5m", "m"};
   const auto [name, unit] = name_and_unit(header, kUnits);
-  const std::vector<std::pair<std::string, double>> angles = {
-      {"deg", kPi / 180}, {"\xc2\xb0", kPi / 180}, {"rad", 1}};
+  const std::vector<std::pair<std::string, double>> angles = {{"deg", kPi / 180}, {"rad", 1}};
   const auto with_unit = [&](Quantity quantity, int component, const auto& units) -> std::optional<Column> {
     const auto to_si = factor(units, unit);
     unit_error = !to_si;
@@ -199,7 +201,7 @@ LoadSamplesDocument load_samples_from_csv(const Source& source, const Robot& rob
     }
   }
 
-  // Of rotations and points all three or none: a missing one is not 0.
+  // Of moments, rotations and points all three or none: a missing one is not 0.
   for (const auto& [quantity, name] : {std::pair<Quantity, std::string>{Quantity::kRotation, "r"},
                                        {Quantity::kForcePoint, "force_point_"},
                                        {Quantity::kMeasuringPoint, "measuring_point_"}}) {
@@ -216,9 +218,17 @@ LoadSamplesDocument load_samples_from_csv(const Source& source, const Robot& rob
     throw DataError(source.name, line_place(header_line), "", "expected rows below the header");
   LoadSamplesDocument result;
   for (const TableRow& row : rows) {
+    for (std::size_t i = columns.size(); i < row.fields.size(); ++i) {
+      if (row.fields[i].empty()) continue;
+      throw DataError(source.name, line_place(row.line), std::to_string(row.fields.size()) + " columns",
+                      "expected " + std::to_string(columns.size()) +
+                          ", as in the first line (with decimal commas separate by semicolons or tabs)");
+    }
     const auto value = [&](Quantity quantity, int component) -> std::optional<double> {
       const auto column = find(quantity, component);
       if (!column) return std::nullopt;
+      if (quantity == Quantity::kDeflection && !components[static_cast<std::size_t>(component)])
+        return std::nullopt;
       return table_number(source, row, *column, "a number") * columns[*column]->to_si;
     };
     const auto vector = [&](Quantity quantity) -> std::optional<Eigen::Vector3d> {

@@ -36,11 +36,26 @@ std::vector<std::string> split(std::string_view line, char separator) {
     return fields;
   }
   for (;;) {
-    const auto end = line.find(separator);
+    // A separator inside quotes belongs to the field.
+    std::size_t end = 0;
+    const auto start = line.find_first_not_of(kBlanks);
+    if (start != std::string_view::npos && line[start] == '"') {
+      const auto quote = line.find('"', start + 1);
+      if (quote != std::string_view::npos) end = quote;
+    }
+    end = line.find(separator, end);
     fields.emplace_back(unquoted(line.substr(0, end)));
     if (end == std::string_view::npos) return fields;
     line.remove_prefix(end + 1);
   }
+}
+
+// Minus signs that word processors put for hyphens.
+std::string plain_minus(std::string field) {
+  for (auto at = field.find("\xE2\x88\x92"); at != std::string::npos; at = field.find("\xE2\x88\x92", at)) {
+    field.replace(at, 3, "-");
+  }
+  return field;
 }
 
 }  // namespace
@@ -48,13 +63,21 @@ std::vector<std::string> split(std::string_view line, char separator) {
 std::vector<TableRow> table_rows(const Source& source) {
   std::string_view rest = source.text;
   if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);
+  if (rest.starts_with("\xFF\xFE") || rest.starts_with("\xFE\xFF")) {
+    throw DataError(source.name, "", "UTF-16 text", "expected UTF-8");
+  }
+  const char line_end = rest.find('\n') == std::string_view::npos ? '\r' : '\n';  // old Macintosh files
   std::vector<TableRow> rows;
   char separator = 0;
   for (long number = 1; !rest.empty(); ++number) {
-    const auto end = rest.find('\n');
+    const auto end = rest.find(line_end);
     const std::string_view line = trimmed(rest.substr(0, end));
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
     if (line.empty() || line.front() == '#' || line.front() == '%') continue;
+    if (rows.empty() && line.size() == 5 && line.starts_with("sep=")) {  // a spreadsheet's own note
+      separator = line.back();
+      continue;
+    }
     if (separator == 0) {
       separator = ' ';
       for (const char candidate : {',', ';', '\t'}) {
@@ -62,12 +85,12 @@ std::vector<TableRow> table_rows(const Source& source) {
       }
     }
     rows.push_back({number, split(line, separator)});
-    if (separator == ';' || separator == '\t') {
-      for (std::string& field : rows.back().fields) {
-        std::string pointed = field;
-        std::replace(pointed.begin(), pointed.end(), ',', '.');
-        if (parse_number(pointed)) field = pointed;
-      }
+    for (std::string& field : rows.back().fields) field = plain_minus(std::move(field));
+    // A comma left inside a field is a decimal comma where the whole field is then a number.
+    for (std::string& field : rows.back().fields) {
+      std::string pointed = field;
+      std::replace(pointed.begin(), pointed.end(), ',', '.');
+      if (parse_number(pointed)) field = pointed;
     }
   }
   return rows;

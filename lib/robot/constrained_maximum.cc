@@ -10,7 +10,7 @@
 namespace stablecut {
 namespace {
 
-constexpr int kMostSteps = 80;
+constexpr int kMostSteps = 300;
 constexpr int kMostCorrections = 6;
 constexpr double kLeastRadius = 1e-10;
 constexpr double kInside = 1e-12;  // constraints are met with this to spare
@@ -203,7 +203,8 @@ std::optional<ConstrainedMaximum> constrained_maximum(const ConstrainedFunction&
   std::optional<Derivatives> d;
   Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(m);
   for (int count = 0; count < kMostSteps && radius > kLeastRadius; ++count) {
-    if (!d) d = derivatives_at(function, x, here, difference);
+    // On a ridge that is narrow the trust region is small, and the differences with it.
+    if (!d) d = derivatives_at(function, x, here, std::clamp(0.05 * radius, 0.1 * difference, difference));
     if (!d) break;
     Matrix lagrangian = d->hessian;
     for (Eigen::Index k = 0; k < m; ++k) lagrangian += multipliers[k] * d->constraint_hessian[k];

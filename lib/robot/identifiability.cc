@@ -7,7 +7,7 @@
 namespace stablecut {
 namespace {
 
-constexpr double kUnseen = 1e-4;
+constexpr double kUnseen = 1e-3;
 constexpr double kDependent = 1e-6;
 constexpr double kInMixture = 1e-3;  // component of a joint in a mixture that nothing sees
 

@@ -23,7 +23,7 @@ struct Identifiability {
   std::vector<int> independent;  ///< joints whose columns span all that is seen, `rank` of them
 };
 
-/// A joint is unseen when its column is below 1e-4 of what it would be with load and measurement square to
+/// A joint is unseen when its column is below 1e-3 of what it would be with load and measurement square to
 /// its lever
 /// (`largest`): that much comes from misalignment and is no measurement. Columns are dependent below 1e-6 of
 /// the largest singular value of the scaled columns.

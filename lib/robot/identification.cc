@@ -13,7 +13,7 @@ namespace stablecut {
 namespace {
 
 constexpr double kConfidence = 0.975;  // two-sided 95 %
-constexpr double kOutlier = 4;         // deviations
+constexpr double kOutlier = 6.3e-5;    // probability: that of 4 deviations of a normal variable
 constexpr double kHuber = 2;           // deviations of a sample from where it counts less
 constexpr double kImplausible = 1e-3;  // chi-square tail
 constexpr int kMostReweightings = 100;
@@ -239,7 +239,7 @@ class Fit {
     }
     residuals(result);
     cross_validate(normal, result);
-    list_outliers(std::sqrt(scale), result);
+    list_outliers(normal, result);
   }
 
   // What the weighted samples scatter by themselves: (A^T W A)^-1 (sum w^2 A^T r r^T A) (A^T W A)^-1.
@@ -295,16 +295,46 @@ class Fit {
     if (count > 0) result.cross_validation_rms_m = std::sqrt(sum / count);
   }
 
-  void list_outliers(double unit, Identification& result) const {
-    if (options_.huber) unit = robust_unit();
+  // Each sample against what the others say: r^T (1 - H_ii)^-1 r, over the variance that is left without it.
+  // A single bad component shows in its own row.
+  void list_outliers(const Eigen::MatrixXd& normal, Identification& result) const {
     if (!result.deviations_known) return;
+    const bool variance_known = stated_ && result.chi_square_tail >= kImplausible;
+    const double robust = options_.huber ? robust_unit() : 0;
+    const Eigen::VectorXd whiten = weight_.cwiseSqrt().cwiseQuotient(std_);
+    const Eigen::MatrixXd a = whiten.asDiagonal() * a_;
+    const Eigen::VectorXd r = whiten.cwiseProduct(residual_);
+    const double sum = r.squaredNorm(), freedom = static_cast<double>(rows_ - a_.cols());
     // Exact samples have rounding for residuals, and no outliers.
-    unit = std::max(unit, 1e-12 * equations_.b.cwiseQuotient(std_).cwiseAbs().maxCoeff());
-    if (!(unit > 0)) return;
+    const double rounding = 1e-12 * whiten.cwiseProduct(equations_.b).cwiseAbs().maxCoeff();
+    const auto judge = [&](double square, double count) {  // mean square in variances, and its tail
+      double variance = 1, left = std::numeric_limits<double>::infinity();
+      if (robust > 0) {
+        variance = robust * robust;
+      } else if (!variance_known) {
+        left = freedom - count;
+        variance = left > 0 ? std::max(sum - square, 0.0) / left : sum / freedom;
+      }
+      const double ratio = square / count / std::max(variance, rounding * rounding);
+      return std::pair{ratio, left > 0 ? f_tail(ratio, count, left) : 1};
+    };
     for (const Block& block : blocks_) {
-      const double z = deviations_of(block, unit);
-      if (z <= kOutlier) continue;
-      Outlier outlier{block.sample, 0, z, weight_[block.first]};
+      const auto rows = Eigen::seqN(block.first, block.count);
+      const Eigen::MatrixXd part = a(rows, Eigen::all);
+      const Eigen::MatrixXd left =
+          Eigen::MatrixXd::Identity(block.count, block.count) - part * normal * part.transpose();
+      const Eigen::JacobiSVD<Eigen::MatrixXd> svd(left, Eigen::ComputeThinU | Eigen::ComputeThinV);
+      if (svd.singularValues()[block.count - 1] < 1e-9) continue;  // nothing else says anything about it
+      const Eigen::VectorXd own = r(rows);
+      // With the robust loss the weights have spared the fit, and the residual counts in full.
+      const double weight = weight_[block.first];
+      auto worst = judge(own.dot(svd.solve(own)) / weight, static_cast<double>(block.count));
+      for (Eigen::Index i = 0; i < block.count; ++i) {
+        const auto row = judge(own[i] * own[i] / left(i, i) / weight, 1);
+        if (row.second < worst.second) worst = row;
+      }
+      if (!(worst.second < kOutlier) || !(own.norm() > rounding)) continue;
+      Outlier outlier{block.sample, 0, std::sqrt(worst.first), weight};
       for (Eigen::Index i = block.first; i < block.first + block.count; ++i) {
         if (!equations_.rotation[static_cast<std::size_t>(i)])
           outlier.residual_m = std::hypot(outlier.residual_m, residual_[i]);
@@ -312,7 +342,7 @@ class Fit {
       result.outliers.push_back(outlier);
     }
     std::stable_sort(result.outliers.begin(), result.outliers.end(),
-                     [](const Outlier& a, const Outlier& b) { return a.deviations > b.deviations; });
+                     [](const Outlier& x, const Outlier& y) { return x.deviations > y.deviations; });
   }
 
   const ComplianceEquations& equations_;
@@ -356,6 +386,12 @@ Identification identify_stiffness(const Robot& robot, const std::vector<LoadSamp
              (verdict == JointVerdict::kUnseen        ? " is not seen by the loads and measurements"
               : verdict == JointVerdict::kInseparable ? " cannot be told from others"
                                                       : " is too uncertain to be told from rigid");
+    }
+    // A load never does negative work on a robot.
+    if ((equations.a.rowwise().sum().cwiseProduct(equations.b)).sum() < 0) {
+      why +=
+          "; the deflections point against the loads: expected the robot's movement under the load, not its "
+          "return";
     }
     throw NoAnswer("no joint can be identified:" + why);
   }

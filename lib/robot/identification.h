@@ -28,8 +28,9 @@ enum class JointVerdict {
 struct Outlier {
   int sample = 0;
   double residual_m = 0;  ///< length of the residual deflection
-  double deviations = 0;  ///< RMS residual of the sample's rows over their deviation
-  double weight = 1;      ///< what the robust loss left of it
+  double deviations =
+      0;  ///< how far it lies from what the other samples predict, in their deviations (RMS of its rows)
+  double weight = 1;  ///< what the robust loss left of it
 };
 
 struct Identification {
@@ -49,7 +50,9 @@ struct Identification {
   /// predicted so.
   std::optional<double> cross_validation_rms_m;
   int samples_not_predicted = 0;
-  std::vector<Outlier> outliers;  ///< more than 4 deviations off, the farthest first
+  /// Samples that lie so far from the prediction of the others that chance does it to one in 16 000; farthest
+  /// first.
+  std::vector<Outlier> outliers;
 
   bool identified(int joint) const {
     return verdict[static_cast<std::size_t>(joint)] == JointVerdict::kIdentified;

@@ -228,6 +228,17 @@ TEST_CASE("outliers: named by both losses, resisted by one") {
   CHECK(huber.outliers[0].weight < 0.1);
   CHECK_FALSE(squared.outliers.empty());
   CHECK(worst_error(huber) < 0.2 * worst_error(squared));
+
+  // One bad component, or one bad sample among few.
+  for (const int poses : {4, 7}) {
+    auto few = samples_of(robot, {random_poses(robot, poses, 9), kThreeLoads});
+    add_noise(few, 5e-6, 0, generator);
+    CHECK(identify_stiffness(robot, few, {}).outliers.empty());
+    few[5].deflection_m.y() += 1e-3;
+    const Identification one = identify_stiffness(robot, few, {});
+    REQUIRE(one.outliers.size() == 1);
+    CHECK(one.outliers[0].sample == 5);
+  }
 }
 
 TEST_CASE("cross-validation is what leaving out does") {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -13,36 +14,59 @@
 namespace stablecut {
 namespace {
 
-constexpr double kOwnStep = 0.05;           // m, of the search's own grid
-constexpr double kOwnTurn = 5 * kPi / 180;  // rad
-constexpr int kMostStartsPerArm = 12;
-constexpr double kEqualScore = 1e-7;  // relative
-constexpr double kSameAngle = 1e-4;   // rad: nearer poses are one
+constexpr double kLargestStep = 0.05;           // m, of the search's grid
+constexpr double kLargestTurn = 5 * kPi / 180;  // rad
+constexpr int kLeastSamples = 25;               // of an interval, however short
+constexpr int kMostStartsPerArm = 30;
+constexpr int kMostRestarts = 10;
+constexpr int kBlocks = 4;             // along x and along y
+constexpr double kStartsApart = 0.03;  // of the plane's extent
+constexpr double kEqualScore = 1e-7;   // relative
+constexpr double kSameAngle = 1e-4;    // rad: nearer poses are one
 
 Range at_most_apart(const Range& range, double step) {
   if (range.is_point()) return {range.from, range.to, 1};
   const int count = 1 + static_cast<int>(std::ceil((range.to - range.from) / step - 1e-9));
-  return {range.from, range.to, std::max(count, 2)};
+  return {range.from, range.to, std::max({count, kLeastSamples, range.count})};
 }
 
-PoseTask with_own_grid(const PoseTask& task) {
-  PoseTask own = task;
-  own.x = at_most_apart(task.x, kOwnStep);
-  own.y = at_most_apart(task.y, kOwnStep);
-  own.redundancy = at_most_apart(task.redundancy, kOwnTurn);
-  return own;
+// The task's samples where they are fine enough, else finer ones.
+PoseTask with_search_grid(const PoseTask& task) {
+  PoseTask grid = task;
+  grid.x = at_most_apart(task.x, kLargestStep);
+  grid.y = at_most_apart(task.y, kLargestStep);
+  grid.redundancy = at_most_apart(task.redundancy, kLargestTurn);
+  return grid;
 }
 
-bool as_fine(const PoseTask& task, const PoseTask& own) {
-  return task.x.step() <= own.x.step() + 1e-12 && task.y.step() <= own.y.step() + 1e-12 &&
-         task.redundancy.step() <= own.redundancy.step() + 1e-12;
+bool same_grid(const PoseTask& a, const PoseTask& b) {
+  return a.x.count == b.x.count && a.y.count == b.y.count && a.redundancy.count == b.redundancy.count;
+}
+
+// The best point of each of some blocks of the grid: basins whose peak the sampling of the redundancy hides.
+std::vector<ScanBest> best_of_blocks(const PlaneScan& scan, std::size_t arm) {
+  std::vector<std::optional<ScanBest>> best(kBlocks * kBlocks);
+  for (int j = 0; j < scan.task.y.count; ++j) {
+    for (int i = 0; i < scan.task.x.count; ++i) {
+      const auto& here = scan.at(i, j).arms[arm];
+      auto& block = best[static_cast<std::size_t>(kBlocks * j / scan.task.y.count * kBlocks +
+                                                  kBlocks * i / scan.task.x.count)];
+      if (here && (!block || here->merit > block->merit)) block = here;
+    }
+  }
+  std::vector<ScanBest> result;
+  for (const auto& block : best) {
+    if (block) result.push_back(*block);
+  }
+  return result;
 }
 
 // Points of the grid that are not worse than their neighbours, of each arm; the best first, and not close
 // together.
 std::vector<ScanBest> starts_of(const PlaneScan& scan) {
   std::vector<ScanBest> starts;
-  const double apart = 0.08 * std::max(scan.task.x.to - scan.task.x.from, scan.task.y.to - scan.task.y.from);
+  const double apart =
+      kStartsApart * std::max(scan.task.x.to - scan.task.x.from, scan.task.y.to - scan.task.y.from);
   for (std::size_t arm = 0; arm < kArms; ++arm) {
     std::vector<ScanBest> peaks;
     for (int j = 0; j < scan.task.y.count; ++j) {
@@ -63,13 +87,14 @@ std::vector<ScanBest> starts_of(const PlaneScan& scan) {
     }
     std::stable_sort(peaks.begin(), peaks.end(),
                      [](const ScanBest& a, const ScanBest& b) { return a.merit > b.merit; });
-    std::vector<ScanBest> chosen;
+    std::vector<ScanBest> chosen = best_of_blocks(scan, arm);
+    const std::size_t most = chosen.size() + kMostStartsPerArm;
     for (const ScanBest& peak : peaks) {
       const bool close = std::any_of(chosen.begin(), chosen.end(), [&](const ScanBest& other) {
         return std::hypot(peak.at.x - other.at.x, peak.at.y - other.at.y) < apart;
       });
       if (!close) chosen.push_back(peak);
-      if (chosen.size() == kMostStartsPerArm) break;
+      if (chosen.size() == most) break;
     }
     starts.insert(starts.end(), chosen.begin(), chosen.end());
   }
@@ -100,6 +125,12 @@ class Refinement {
   // point so far.
   std::optional<FoundPose> from(const PlanePoint& start, double radius) const {
     auto best = from(start, radius, 0);
+    // On a narrow curved ridge a search may stop early; another from where it stopped goes on.
+    for (int i = 0; best && i < kMostRestarts; ++i) {
+      const auto again = from(best->at, radius, 0);
+      if (!again || !(std::abs(again->score - best->score) > kEqualScore * best->score)) break;
+      best = again;
+    }
     if (!best || task_.stiffness.index != StiffnessIndex::kWeakest) return best;
     for (const double power : {30.0, 300.0, 3000.0}) {
       const auto smoothed = from(best->at, radius, power);
@@ -195,33 +226,68 @@ Symmetry symmetry_of(const PoseScanner& scanner) {
                           task.stiffness.force_in_tool || along_axis1(*task.stiffness.force_n);
   symmetry.base_turn = load_turns && along_axis1(task.tool_axis) &&
                        along_axis1(task.plane.x_axis.cross(task.plane.y_axis)) && !task.x.is_point() &&
-                       !task.y.is_point() && (task.full_turn() || symmetry.tool_turn);
+                       !task.y.is_point() && (!task.redundancy.is_point() || symmetry.tool_turn);
   return symmetry;
 }
 
 bool inside(const Range& range, double value) {
-  return value >= range.from - 1e-9 && value <= range.to + 1e-9;
+  return value >= range.from - 1e-12 && value <= range.to + 1e-12;
+}
+
+// The pose with one joint elsewhere, if the task's intervals and limits allow it.
+std::optional<FoundPose> turned(const PoseScanner& scanner, const FoundPose& found, int joint, double angle) {
+  const PoseTask& task = scanner.task();
+  FoundPose pose = found;
+  pose.angles[joint] = angle;
+  if (limit_margin_rad(scanner.robot(), pose.angles) < task.limit_margin_rad - 1e-9) return std::nullopt;
+  const Eigen::Isometry3d tool = robot_pose(scanner.robot(), pose.angles).tool;
+  const Eigen::Vector3d offset = tool.translation() - task.plane.origin;
+  const auto tidy = [](double value) { return std::abs(value) < 1e-12 ? 0 : value; };
+  pose.at.x = tidy(offset.dot(task.plane.x_axis));
+  pose.at.y = tidy(offset.dot(task.plane.y_axis));
+  // The turn of the interval, of all copies by whole turns.
+  const double turn = redundancy_angle(tool), middle = 0.5 * (task.redundancy.from + task.redundancy.to);
+  pose.at.redundancy = task.full_turn() ? turn : turn + kTwoPi * std::nearbyint((middle - turn) / kTwoPi);
+  const bool turn_allowed = task.full_turn() || inside(task.redundancy, pose.at.redundancy);
+  if (!turn_allowed || !inside(task.x, pose.at.x) || !inside(task.y, pose.at.y)) return std::nullopt;
+  return pose;
+}
+
+// As far as a joint can be turned either way with all intervals and limits held: in steps, then by bisection.
+PoseFamily family_of(const PoseScanner& scanner, const FoundPose& found, PoseFamily::Kind kind, int joint) {
+  constexpr double kStep = kPi / 720;
+  PoseFamily family{kind, found.angles[joint], found.angles[joint]};
+  const Joint& limits = scanner.robot().joints[static_cast<std::size_t>(joint)];
+  for (const double sense : {-1.0, 1.0}) {
+    const double margin = scanner.task().limit_margin_rad;
+    const double end = sense < 0 ? limits.min_rad + margin : limits.max_rad - margin;
+    double good = found.angles[joint], bad = end;
+    bool open = true;
+    for (double next = good + sense * kStep; open && sense * (end - next) > 0; next += sense * kStep) {
+      open = turned(scanner, found, joint, next).has_value();
+      (open ? good : bad) = next;
+    }
+    if (open && turned(scanner, found, joint, end)) good = bad = end;
+    for (int i = 0; i < 50 && good != bad; ++i) {
+      const double middle = 0.5 * (good + bad);
+      (turned(scanner, found, joint, middle) ? good : bad) = middle;
+    }
+    (sense < 0 ? family.from_rad : family.to_rad) = good;
+  }
+  return family;
 }
 
 // The member of the families that a symmetry makes whose free joints stand nearest to 0, if the intervals
 // allow it.
-FoundPose centred(const PoseScanner& scanner, const FoundPose& found, const Symmetry& symmetry) {
-  const PoseTask& task = scanner.task();
-  FoundPose turned = found;
+FoundPose centred(const PoseScanner& scanner, FoundPose found, const Symmetry& symmetry) {
   for (const int j : {0, 5}) {
-    if (!(j == 0 ? symmetry.base_turn : symmetry.tool_turn && task.full_turn())) continue;
-    const Joint& joint = scanner.robot().joints[j];
-    turned.angles[j] =
-        std::clamp(0.0, joint.min_rad + task.limit_margin_rad, joint.max_rad - task.limit_margin_rad);
+    if (!(j == 0 ? symmetry.base_turn : symmetry.tool_turn)) continue;
+    const Joint& joint = scanner.robot().joints[static_cast<std::size_t>(j)];
+    const double margin = scanner.task().limit_margin_rad;
+    const double central = std::clamp(0.0, joint.min_rad + margin, joint.max_rad - margin);
+    if (const auto moved = turned(scanner, found, j, central)) found = *moved;
   }
-  const Eigen::Isometry3d tool = robot_pose(scanner.robot(), turned.angles).tool;
-  const Eigen::Vector3d offset = tool.translation() - task.plane.origin;
-  turned.at.x = offset.dot(task.plane.x_axis);
-  turned.at.y = offset.dot(task.plane.y_axis);
-  if (std::abs(turned.at.x) < 1e-12) turned.at.x = 0;
-  if (std::abs(turned.at.y) < 1e-12) turned.at.y = 0;
-  if (task.full_turn()) turned.at.redundancy = redundancy_angle(tool);
-  return inside(task.x, turned.at.x) && inside(task.y, turned.at.y) ? turned : found;
+  return found;
 }
 
 // The same pose, up to joints that a symmetry leaves free.
@@ -303,10 +369,10 @@ PlaneScan scan_plane(const Robot& robot, const PoseTask& task, int threads, cons
 
 PoseSearch search_poses(const Robot& robot, const PoseTask& task, int most_alternatives, int threads,
                         const Progress& progress, const PlaneScan* known) {
-  const PoseTask own_task = with_own_grid(task);
+  const PoseTask grid = with_search_grid(task);
   PlaneScan own;
-  if (!known || !as_fine(known->task, own_task)) {
-    own = scan_plane(robot, own_task, threads, progress);
+  if (!known || !same_grid(known->task, grid)) {
+    own = scan_plane(robot, grid, threads, progress);
     known = &own;
   }
   std::vector<ScanBest> starts = starts_of(*known);
@@ -356,14 +422,12 @@ PoseSearch search_poses(const Robot& robot, const PoseTask& task, int most_alter
   result.redundancy_matters = scanner.redundancy_matters();
 
   std::vector<FoundPose> listed{result.best};
-  const double m = task.limit_margin_rad;
-  if (symmetry.base_turn) {
-    result.families.push_back(
-        {PoseFamily::Kind::kBaseTurn, robot.joints[0].min_rad + m, robot.joints[0].max_rad - m});
-  }
-  if (symmetry.tool_turn) {
-    result.families.push_back(
-        {PoseFamily::Kind::kToolTurn, robot.joints[5].min_rad + m, robot.joints[5].max_rad - m});
+  for (const auto& [applies, kind, joint] :
+       {std::tuple{symmetry.base_turn, PoseFamily::Kind::kBaseTurn, 0},
+        std::tuple{symmetry.tool_turn, PoseFamily::Kind::kToolTurn, 5}}) {
+    if (!applies) continue;
+    const PoseFamily family = family_of(scanner, result.best, kind, joint);
+    if (family.to_rad - family.from_rad > 1e-6) result.families.push_back(family);
   }
   if (const auto other = flipped(scanner, result.best)) {
     result.families.push_back({PoseFamily::Kind::kFlippedWrist, 0, 0, other->angles});

@@ -48,9 +48,9 @@ struct PlaneScan {
 PlaneScan scan_plane(const Robot& robot, const PoseTask& task, int threads, const Progress& progress = {});
 
 /// The optimum within the task's intervals, wherever the samples lie: a scan at most 50 mm and 5 degrees
-/// apart (`known`, where it is that fine, else its own), then every local optimum refined, with the limits,
-/// the singularity margin and the intervals held. Throws NoAnswer when nothing is allowed, saying what stands
-/// in the way.
+/// apart, of 25 points an interval at least and not coarser than the task's samples (`known`, where it is
+/// that scan already), then every local optimum refined, with the limits, the singularity margin and the
+/// intervals held. Throws NoAnswer when nothing is allowed, saying what stands in the way.
 PoseSearch search_poses(const Robot& robot, const PoseTask& task, int most_alternatives, int threads,
                         const Progress& progress = {}, const PlaneScan* known = nullptr);
 
