@@ -40,6 +40,13 @@ struct PlanePoint {
   int branch = 0;
 };
 
+/// A pose found in that space.
+struct FoundPose {
+  PlanePoint at;
+  JointAngles angles;  ///< controller angles, rad
+  double score = 0;    ///< N/m, or m for a deflection
+};
+
 /// Bounds in the plane's coordinates (m) of what the tool point can reach with the tool axis as it is, limits
 /// aside: not less than that, perhaps more. Nothing when the plane is out of reach.
 struct PlaneReach {

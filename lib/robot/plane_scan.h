@@ -1,0 +1,31 @@
+// A task's plane scanned point by point, and the map that it makes.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "base/progress.h"
+#include "robot/pose_scan.h"
+
+namespace stablecut {
+
+/// The scanned points of a task's x and y samples.
+struct PlaneScan {
+  PoseTask task;
+  std::vector<PointScan> points;  ///< y slowest
+
+  const PointScan& at(int x, int y) const { return points[static_cast<std::size_t>(y) * task.x.count + x]; }
+};
+PlaneScan scan_plane(const Robot& robot, const PoseTask& task, int threads, const Progress& progress = {});
+
+/// The best of the samples at each point; nothing is refined.
+struct PoseMap {
+  Eigen::MatrixXd score;                     ///< [y][x], NaN where nothing is allowed
+  Eigen::MatrixXd redundancy_rad;            ///< [y][x]
+  Eigen::MatrixXi branch;                    ///< [y][x], -1 where nothing is allowed
+  std::array<Eigen::MatrixXd, 3> stiffness;  ///< along the tool's x, y, z there, N/m
+};
+PoseMap pose_map(const Robot& robot, const PlaneScan& scan);
+
+}  // namespace stablecut

@@ -1,0 +1,109 @@
+#include "robot/pose_families.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.h"
+
+namespace stablecut {
+namespace {
+
+constexpr double kSameAngle = 1e-4;  // rad
+
+bool inside(const Range& range, double value) {
+  return value >= range.from - 1e-12 && value <= range.to + 1e-12;
+}
+
+// The pose with one joint elsewhere, if the task's intervals and limits allow it.
+std::optional<FoundPose> turned(const PoseScanner& scanner, const FoundPose& found, int joint, double angle) {
+  const PoseTask& task = scanner.task();
+  FoundPose pose = found;
+  pose.angles[joint] = angle;
+  if (limit_margin_rad(scanner.robot(), pose.angles) < task.limit_margin_rad - 1e-9) return std::nullopt;
+  const Eigen::Isometry3d tool = robot_pose(scanner.robot(), pose.angles).tool;
+  const Eigen::Vector3d offset = tool.translation() - task.plane.origin;
+  const auto tidy = [](double value) { return std::abs(value) < 1e-12 ? 0 : value; };
+  pose.at.x = tidy(offset.dot(task.plane.x_axis));
+  pose.at.y = tidy(offset.dot(task.plane.y_axis));
+  // The turn of the interval, of all copies by whole turns.
+  const double turn = redundancy_angle(tool), middle = 0.5 * (task.redundancy.from + task.redundancy.to);
+  pose.at.redundancy = task.full_turn() ? turn : turn + kTwoPi * std::nearbyint((middle - turn) / kTwoPi);
+  const bool turn_allowed = task.full_turn() || inside(task.redundancy, pose.at.redundancy);
+  if (!turn_allowed || !inside(task.x, pose.at.x) || !inside(task.y, pose.at.y)) return std::nullopt;
+  return pose;
+}
+
+}  // namespace
+
+Symmetry symmetry_of(const PoseScanner& scanner) {
+  constexpr double kParallel = 1e-12;
+  const PoseTask& task = scanner.task();
+  const Robot& robot = scanner.robot();
+  const Eigen::Vector3d axis1(0, -robot.joints[0].sin_alpha(), robot.joints[0].cos_alpha());
+  const auto along_axis1 = [&](const Eigen::Vector3d& v) {
+    return v.cross(axis1).norm() <= kParallel * v.norm();
+  };
+  Symmetry symmetry;
+  symmetry.tool_turn = !scanner.redundancy_matters() && !task.redundancy.is_point();
+  const bool load_turns = task.stiffness.index != StiffnessIndex::kDeflection ||
+                          task.stiffness.force_in_tool || along_axis1(*task.stiffness.force_n);
+  symmetry.base_turn = load_turns && along_axis1(task.tool_axis) &&
+                       along_axis1(task.plane.x_axis.cross(task.plane.y_axis)) && !task.x.is_point() &&
+                       !task.y.is_point() && (!task.redundancy.is_point() || symmetry.tool_turn);
+  return symmetry;
+}
+
+// As far as a joint can be turned either way with all intervals and limits held: in steps, then by bisection.
+PoseFamily family_of(const PoseScanner& scanner, const FoundPose& found, PoseFamily::Kind kind, int joint) {
+  constexpr double kStep = kPi / 720;
+  PoseFamily family{kind, found.angles[joint], found.angles[joint]};
+  const Joint& limits = scanner.robot().joints[static_cast<std::size_t>(joint)];
+  for (const double sense : {-1.0, 1.0}) {
+    const double margin = scanner.task().limit_margin_rad;
+    const double end = sense < 0 ? limits.min_rad + margin : limits.max_rad - margin;
+    double good = found.angles[joint], bad = end;
+    bool open = true;
+    for (double next = good + sense * kStep; open && sense * (end - next) > 0; next += sense * kStep) {
+      open = turned(scanner, found, joint, next).has_value();
+      (open ? good : bad) = next;
+    }
+    if (open && turned(scanner, found, joint, end)) good = bad = end;
+    for (int i = 0; i < 50 && good != bad; ++i) {
+      const double middle = 0.5 * (good + bad);
+      (turned(scanner, found, joint, middle) ? good : bad) = middle;
+    }
+    (sense < 0 ? family.from_rad : family.to_rad) = good;
+  }
+  return family;
+}
+
+FoundPose centred(const PoseScanner& scanner, FoundPose found, const Symmetry& symmetry) {
+  for (const int j : {0, 5}) {
+    if (!(j == 0 ? symmetry.base_turn : symmetry.tool_turn)) continue;
+    const Joint& joint = scanner.robot().joints[static_cast<std::size_t>(j)];
+    const double margin = scanner.task().limit_margin_rad;
+    const double central = std::clamp(0.0, joint.min_rad + margin, joint.max_rad - margin);
+    if (const auto moved = turned(scanner, found, j, central)) found = *moved;
+  }
+  return found;
+}
+
+bool same_pose(const FoundPose& a, const FoundPose& b, const Symmetry& symmetry) {
+  for (int j = 0; j < kJoints; ++j) {
+    if ((j == 0 && symmetry.base_turn) || (j == 5 && symmetry.tool_turn)) continue;
+    if (std::abs(std::remainder(a.angles[j] - b.angles[j], kTwoPi)) > kSameAngle) return false;
+  }
+  return true;
+}
+
+std::optional<FoundPose> flipped(const PoseScanner& scanner, const FoundPose& found) {
+  FoundPose other = found;
+  other.at.branch = (found.at.branch + kArms) % kBranches;
+  const auto evaluation = scanner.evaluate(other.at);
+  if (!evaluation) return std::nullopt;
+  other.angles = evaluation->angles;
+  if (limit_margin_rad(scanner.robot(), other.angles) < scanner.task().limit_margin_rad) return std::nullopt;
+  return other;
+}
+
+}  // namespace stablecut
