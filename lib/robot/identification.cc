@@ -18,29 +18,48 @@ constexpr double kHuber = 2;           // deviations of a sample from where it c
 constexpr double kImplausible = 1e-3;  // chi-square tail
 constexpr int kMostReweightings = 100;
 
-// Least squares over some columns, none below 0: the best of the faces whose own solution is not negative.
-// With at most six unknowns they are tried all.
-Eigen::VectorXd not_negative(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+// (A^T A)^-1, by scaled columns: their sizes differ by orders of magnitude.
+Eigen::MatrixXd inverse_normal(const Eigen::MatrixXd& a) {
+  const Eigen::Index n = a.cols();
+  const Eigen::VectorXd per_scale = a.colwise().norm().cwiseInverse();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(a * per_scale.asDiagonal());
+  const Eigen::MatrixXd root = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
+  const Eigen::MatrixXd inverse = root.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(n, n));
+  return per_scale.asDiagonal() * (inverse * inverse.transpose()) * per_scale.asDiagonal();
+}
+
+// Least squares, with the unknowns marked in `bounded` not below 0: the best of the faces whose own solution
+// keeps that. With at most six unknowns they are tried all.
+Eigen::VectorXd not_negative(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
+                             const std::vector<bool>& bounded) {
   const Eigen::Index n = a.cols();
   Eigen::VectorXd best = Eigen::VectorXd::Zero(n);
-  double least = b.squaredNorm();
-  for (int face = 1; face < 1 << n; ++face) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int face = 0; face < 1 << n; ++face) {
     std::vector<Eigen::Index> free;
+    bool allowed = true;
     for (Eigen::Index i = 0; i < n; ++i) {
-      if (face >> i & 1) free.push_back(i);
+      if (face >> i & 1)
+        free.push_back(i);
+      else
+        allowed = allowed && bounded[static_cast<std::size_t>(i)];
     }
+    if (!allowed) continue;
     const Eigen::MatrixXd part = a(Eigen::all, free);
-    // Scaled columns: their sizes differ by orders of magnitude.
-    const Eigen::VectorXd scale = part.colwise().norm();
-    const Eigen::VectorXd solution =
-        (part * scale.cwiseInverse().asDiagonal()).householderQr().solve(b).cwiseQuotient(scale);
-    if ((solution.array() < 0).any()) continue;
-    const double sum = (part * solution - b).squaredNorm();
-    if (sum < least) {
-      least = sum;
-      best.setZero();
-      for (std::size_t i = 0; i < free.size(); ++i) best[free[i]] = solution[static_cast<Eigen::Index>(i)];
+    Eigen::VectorXd solution(part.cols());
+    if (!free.empty()) {
+      const Eigen::VectorXd scale = part.colwise().norm();
+      solution = (part * scale.cwiseInverse().asDiagonal()).householderQr().solve(b).cwiseQuotient(scale);
     }
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      allowed = allowed &&
+                (!bounded[static_cast<std::size_t>(free[i])] || solution[static_cast<Eigen::Index>(i)] >= 0);
+    }
+    const double sum = (part * solution - b).squaredNorm();
+    if (!allowed || !(sum < least)) continue;
+    least = sum;
+    best.setZero();
+    for (std::size_t i = 0; i < free.size(); ++i) best[free[i]] = solution[static_cast<Eigen::Index>(i)];
   }
   return best;
 }
@@ -78,7 +97,7 @@ class Fit {
     // Rows per unit of deviation; deviations of deflections against rotations settle with the residuals.
     find_columns();
     estimate();
-    for (int i = 0; i < kMostReweightings && (mixed || options_.huber); ++i) {
+    for (int i = 0; i < kMostReweightings && a_.cols() > 0 && (mixed || options_.huber); ++i) {
       const Eigen::VectorXd before = solution_;
       if (mixed) balance_rotations();
       if (options_.huber) reweight();
@@ -95,32 +114,27 @@ class Fit {
                             std_.cwiseInverse().asDiagonal() * equations_.largest);
     std::vector<Eigen::Index> columns(seen_.independent.begin(), seen_.independent.end());
     a_ = equations_.a(Eigen::all, columns);
+    // Of joints that cannot be told apart only a mixture is estimated, which may have any sign.
+    bounded_.clear();
+    for (const int joint : seen_.independent) {
+      bounded_.push_back(seen_.visibility[static_cast<std::size_t>(joint)] == Visibility::kVisible);
+    }
   }
 
   void estimate() {
     if (a_.cols() == 0) return;
     const Eigen::VectorXd whiten = weight_.cwiseSqrt().cwiseQuotient(std_);
-    solution_ = not_negative(whiten.asDiagonal() * a_, whiten.cwiseProduct(equations_.b));
+    solution_ = not_negative(whiten.asDiagonal() * a_, whiten.cwiseProduct(equations_.b), bounded_);
     residual_ = equations_.b - a_ * solution_;
   }
 
-  // The unscaled covariance (A^T W A)^-1.
-  Eigen::MatrixXd inverse_normal() const {
-    const Eigen::VectorXd whiten = weight_.cwiseSqrt().cwiseQuotient(std_);
-    const Eigen::MatrixXd whitened = whiten.asDiagonal() * a_;
-    const Eigen::VectorXd scale = whitened.colwise().norm();
-    const Eigen::MatrixXd scaled = whitened * scale.cwiseInverse().asDiagonal();
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(scaled);
-    const Eigen::Index n = a_.cols();
-    const Eigen::MatrixXd root = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
-    const Eigen::MatrixXd inverse =
-        root.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(n, n));
-    return scale.cwiseInverse().asDiagonal() * (inverse * inverse.transpose()) *
-           scale.cwiseInverse().asDiagonal();
+  // Rows over their deviations, with the robust weights.
+  Eigen::MatrixXd weighted_rows(const Eigen::MatrixXd& a) const {
+    return weight_.cwiseSqrt().cwiseQuotient(std_).asDiagonal() * a;
   }
 
   double squares(bool rotation, double& freedom) const {
-    const Eigen::MatrixXd normal = inverse_normal();
+    const Eigen::MatrixXd normal = inverse_normal(weighted_rows(a_));
     double sum = 0;
     freedom = 0;
     for (Eigen::Index i = 0; i < rows_; ++i) {
@@ -191,25 +205,33 @@ class Fit {
       }
     }
     if (n == 0) return;
-    const Eigen::MatrixXd normal = inverse_normal();
+    result.condition_number = identifiability(std_.cwiseInverse().asDiagonal() * equations_.a,
+                                              std_.cwiseInverse().asDiagonal() * equations_.largest)
+                                  .condition_number;
     const double freedom = static_cast<double>(rows_ - n);
+    const Eigen::VectorXd z = residual_.cwiseQuotient(std_);
+    // With the robust loss a sample counts by its influence w z, and the less its influence changes with z,
+    // the less it says (Huber's asymptotic covariance); without, both are as in least squares.
+    const double influence = weight_.cwiseProduct(z).squaredNorm();
     double scale = 1;
     if (stated_) {
-      const double chi_square = residual_.cwiseQuotient(std_).cwiseAbs2().cwiseProduct(weight_).sum();
       result.degrees_of_freedom = std::numeric_limits<double>::infinity();
       result.deviations_known = true;
       if (freedom > 0) {
-        result.chi_square_per_dof = chi_square / freedom;
-        result.chi_square_tail = chi_square_tail(chi_square, freedom);
-        if (result.chi_square_tail < kImplausible) scale = chi_square / freedom;
+        result.chi_square_per_dof = influence / freedom;
+        result.chi_square_tail = chi_square_tail(influence, freedom);
+        if (result.chi_square_tail < kImplausible) {
+          scale = influence / freedom;
+          result.degrees_of_freedom = freedom;
+        }
       }
     } else if (freedom > 0) {
       result.degrees_of_freedom = freedom;
       result.deviations_known = true;
-      scale = residual_.cwiseQuotient(std_).cwiseAbs2().cwiseProduct(weight_).sum() / freedom;
+      scale = influence / freedom;
     }
-    Eigen::MatrixXd covariance = scale * normal;
-    if (options_.huber) covariance = sandwich(normal);
+    const Eigen::MatrixXd covariance =
+        scale / std::pow(mean_slope(), 2) * inverse_normal(std_.cwiseInverse().asDiagonal() * a_);
 
     for (Eigen::Index i = 0; i < n; ++i) {
       const int joint = seen_.independent[static_cast<std::size_t>(i)];
@@ -238,23 +260,25 @@ class Fit {
         result.verdict[static_cast<std::size_t>(joint)] = JointVerdict::kUncertain;
     }
     residuals(result);
-    cross_validate(normal, result);
-    list_outliers(normal, result);
+    // What a sample does to its own prediction: by the joints that are free to move, not those held at 0.
+    std::vector<Eigen::Index> active;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (solution_[i] != 0) active.push_back(i);
+    }
+    if (active.empty()) return;
+    const Eigen::MatrixXd rows = weighted_rows(a_(Eigen::all, active));
+    cross_validate(rows, result);
+    list_outliers(rows, result);
   }
 
-  // What the weighted samples scatter by themselves: (A^T W A)^-1 (sum w^2 A^T r r^T A) (A^T W A)^-1.
-  Eigen::MatrixXd sandwich(const Eigen::MatrixXd& normal) const {
-    Eigen::MatrixXd middle = Eigen::MatrixXd::Zero(a_.cols(), a_.cols());
+  // Mean derivative of the influence: a sample beyond the threshold keeps it across its residual only.
+  double mean_slope() const {
+    double sum = 0;
     for (const Block& block : blocks_) {
-      const auto rows = Eigen::seqN(block.first, block.count);
-      const Eigen::VectorXd score =
-          a_(rows, Eigen::all).transpose() *
-          (weight_(rows).cwiseProduct(residual_(rows)).cwiseQuotient(std_(rows).cwiseAbs2()));
-      middle += score * score.transpose();
+      const double weight = weight_[block.first], count = static_cast<double>(block.count);
+      sum += weight < 1 ? weight * (count - 1) : count;
     }
-    const double count = static_cast<double>(blocks_.size()), n = static_cast<double>(a_.cols());
-    const double small_sample = 3 * count > n ? 3 * count / (3 * count - n) : 1;
-    return small_sample * normal * middle * normal;
+    return sum / static_cast<double>(rows_);
   }
 
   void residuals(Identification& result) const {
@@ -270,13 +294,15 @@ class Fit {
   }
 
   // Each sample from all others: its residual grows by (1 - H_ii)^-1, H the hat matrix's block of the sample.
-  void cross_validate(const Eigen::MatrixXd& normal, Identification& result) const {
+  // Robust weights and joints held at 0 stay as all samples have them.
+  void cross_validate(const Eigen::MatrixXd& weighted, Identification& result) const {
+    const Eigen::MatrixXd normal = inverse_normal(weighted);
     double sum = 0;
     int count = 0;
     for (const Block& block : blocks_) {
       const auto rows = Eigen::seqN(block.first, block.count);
       const Eigen::VectorXd whiten = weight_(rows).cwiseSqrt().cwiseQuotient(std_(rows));
-      const Eigen::MatrixXd a = whiten.asDiagonal() * a_(rows, Eigen::all);
+      const Eigen::MatrixXd a = weighted(rows, Eigen::all);
       const Eigen::MatrixXd left =
           Eigen::MatrixXd::Identity(block.count, block.count) - a * normal * a.transpose();
       const Eigen::JacobiSVD<Eigen::MatrixXd> svd(left, Eigen::ComputeThinU | Eigen::ComputeThinV);
@@ -297,14 +323,14 @@ class Fit {
 
   // Each sample against what the others say: r^T (1 - H_ii)^-1 r, over the variance that is left without it.
   // A single bad component shows in its own row.
-  void list_outliers(const Eigen::MatrixXd& normal, Identification& result) const {
+  void list_outliers(const Eigen::MatrixXd& a, Identification& result) const {
     if (!result.deviations_known) return;
+    const Eigen::MatrixXd normal = inverse_normal(a);
     const bool variance_known = stated_ && result.chi_square_tail >= kImplausible;
     const double robust = options_.huber ? robust_unit() : 0;
     const Eigen::VectorXd whiten = weight_.cwiseSqrt().cwiseQuotient(std_);
-    const Eigen::MatrixXd a = whiten.asDiagonal() * a_;
     const Eigen::VectorXd r = whiten.cwiseProduct(residual_);
-    const double sum = r.squaredNorm(), freedom = static_cast<double>(rows_ - a_.cols());
+    const double sum = r.squaredNorm(), freedom = static_cast<double>(rows_ - a.cols());
     // Exact samples have rounding for residuals, and no outliers.
     const double rounding = 1e-12 * whiten.cwiseProduct(equations_.b).cwiseAbs().maxCoeff();
     const auto judge = [&](double square, double count) {  // mean square in variances, and its tail
@@ -333,7 +359,9 @@ class Fit {
         const auto row = judge(own[i] * own[i] / left(i, i) / weight, 1);
         if (row.second < worst.second) worst = row;
       }
-      if (!(worst.second < kOutlier) || !(own.norm() > rounding)) continue;
+      // As many chances as comparisons.
+      if (!(worst.second * static_cast<double>(block.count + 1) < kOutlier) || !(own.norm() > rounding))
+        continue;
       Outlier outlier{block.sample, 0, std::sqrt(worst.first), weight};
       for (Eigen::Index i = block.first; i < block.first + block.count; ++i) {
         if (!equations_.rotation[static_cast<std::size_t>(i)])
@@ -353,6 +381,7 @@ class Fit {
   Eigen::VectorXd std_,
       weight_;  // deviation (up to a common factor when not stated) and robust weight of each row
   Identifiability seen_;
+  std::vector<bool> bounded_;
   Eigen::MatrixXd a_;  // columns of the independent joints
   Eigen::VectorXd solution_, residual_;
 };
@@ -388,7 +417,11 @@ Identification identify_stiffness(const Robot& robot, const std::vector<LoadSamp
                                                       : " is too uncertain to be told from rigid");
     }
     // A load never does negative work on a robot.
-    if ((equations.a.rowwise().sum().cwiseProduct(equations.b)).sum() < 0) {
+    double work = 0;
+    for (const LoadSample& sample : samples) {
+      if (sample.force_point == sample.measuring_point) work += sample.force_n.dot(sample.deflection_m);
+    }
+    if (work < 0) {
       why +=
           "; the deflections point against the loads: expected the robot's movement under the load, not its "
           "return";

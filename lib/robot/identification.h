@@ -28,9 +28,9 @@ enum class JointVerdict {
 struct Outlier {
   int sample = 0;
   double residual_m = 0;  ///< length of the residual deflection
-  double deviations =
-      0;  ///< how far it lies from what the other samples predict, in their deviations (RMS of its rows)
-  double weight = 1;  ///< what the robust loss left of it
+  double deviations = 0;  ///< how far it lies from what the other samples predict, in their deviations: RMS
+                          ///< of its rows, or its worst row
+  double weight = 1;      ///< what the robust loss left of it
 };
 
 struct Identification {
@@ -41,13 +41,14 @@ struct Identification {
   std::array<double, kJoints> low, high;         ///< 95 % interval of the compliances, NaN without deviations
   int rank = 0;
   double condition_number = 1;
-  double residual_rms_m = 0;                 ///< of the deflection components
-  std::optional<double> residual_rms_rad;    ///< of the rotations, when measured
-  double degrees_of_freedom = 0;             ///< infinite where the samples state deviations
+  double residual_rms_m = 0;               ///< of the deflection components
+  std::optional<double> residual_rms_rad;  ///< of the rotations, when measured
+  /// Of the intervals: infinite where the samples state deviations and the residuals agree.
+  double degrees_of_freedom = 0;
   std::optional<double> chi_square_per_dof;  ///< where they do
   double chi_square_tail = 1;                ///< its probability, where they do
-  /// RMS of each sample's deflection less its prediction from all others; none when a sample cannot be
-  /// predicted so.
+  /// RMS of each sample's deflection less its prediction from all others, over those that the others can
+  /// predict.
   std::optional<double> cross_validation_rms_m;
   int samples_not_predicted = 0;
   /// Samples that lie so far from the prediction of the others that chance does it to one in 16 000; farthest
