@@ -34,6 +34,14 @@ best-pose --robot "$robot" --evaluate outside.json k2d.json -o scored.json 2>.er
 check "a pose outside the limits is scored with a warning" grep -q '^best-pose: warning: outside.json: /poses/0/joints_deg: 70.000 degrees outside' .err
 check_jq "and a negative margin" scored.json '.evaluated[0].limit_margin_deg == -70'
 
+echo '{"format": "stablecut/pose-list/1", "poses": [{"joints_deg": [0, -60, -3.0714621170703906, 0, 3.0714621170703906, 0]}, {"joints_deg": [0, -60, 60, 0, 60, 0]}]}' >stretched.json
+best-pose --robot "$robot" --evaluate stretched.json k2d.json -o scored.json 2>.err
+check "a stretched arm is singular" grep -q '^best-pose: warning: stretched.json: /poses/0: a singular pose' .err
+check_jq "no number where the arm cannot yield" scored.json '.evaluated[0].score == null and .evaluated[0].rank == 2 and .evaluated[0].stiffness_n_per_m[2] == null and .evaluated[1].rank == 1'
+refused 64 '^best-pose: --force-frame: expected with --force only' "${search[@]}" --force-frame tool k2d.json
+refused 64 '^best-pose: --redundancy: expected at most 3600 angles' "${search[@]}" --redundancy 0:90:4000 k2d.json
+refused 1 '^best-pose: no reachable pose: nothing of the plane' "${search[@]}" --x 1e12:2e12:3 k2d.json
+check "a plane far larger than the robot" "${search[@]}" --x=-1e12:1e12:3 k2d.json -o large.json
 refused 64 '^best-pose: --robot: missing' best-pose --height 1600 k2d.json
 refused 64 '^best-pose: --height: missing: expected the height of the plane' best-pose --robot "$robot" k2d.json
 refused 64 '^best-pose: --height: x: expected a number' best-pose --robot "$robot" --height x k2d.json

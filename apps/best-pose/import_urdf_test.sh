@@ -44,4 +44,9 @@ refused 65 '^import-urdf: .*link nowhere: expected one of' "$import" --tip nowhe
 refused 66 '^import-urdf: none.urdf: cannot be read' "$import" none.urdf
 refused 64 '^import-urdf: .*--nonsense' "$import" --nonsense
 refused 73 '^import-urdf: none/robot.json: cannot be created' "$import" "$urdf" -o none/robot.json
-check "nothing was written" test ! -e result.json
+refused 74 '^import-urdf: <stdout>: cannot be written' bash -c '"$0" "$1" >/dev/full' "$import" "$urdf"
+(umask 027; "$import" "$urdf" -o mine.json)
+check "the umask holds" test "$(stat -c %a mine.json)" = 640
+"$import" "$urdf" -o /dev/null
+check "a device stays one" test -c /dev/null
+check "nothing was written" test ! -e result.json -a -z "$(find . -name '.import-urdf-*')"

@@ -27,6 +27,7 @@ constexpr Range kDefaultRedundancyDeg{-180, 175, 72};
 constexpr int kDefaultAlternatives = 5;
 constexpr double kLargestForce = 1e9;
 constexpr int kMostPoints = 4'000'000;
+constexpr int kMostTurns = 3600;
 
 class BestPose : public cli::Tool {
  public:
@@ -140,6 +141,7 @@ class BestPose : public cli::Tool {
     if (task.index == StiffnessIndex::kDeflection && !force_) {
       throw usage("--force: missing: expected a force for the index deflection");
     }
+    if (!force_frame_.empty() && !force_) throw usage("--force-frame: expected with --force only");
     task.force_in_tool = force_frame_ == "tool";
     return task;
   }
@@ -209,7 +211,7 @@ class BestPose : public cli::Tool {
     return joints;
   }
 
-  Range span_mm(const std::optional<Range>& given, const Range& reach) const {
+  Range span(const std::optional<Range>& given, const Range& reach) const {
     if (given) return {metres_from_mm(given->from), metres_from_mm(given->to), given->count};
     const double from = std::floor(mm_from_metres(reach.from) / kDefaultStepMm) * kDefaultStepMm;
     const double to = std::ceil(mm_from_metres(reach.to) / kDefaultStepMm) * kDefaultStepMm;
@@ -230,13 +232,16 @@ class BestPose : public cli::Tool {
     if (!reach && (!x_ || !y_)) {
       throw NoAnswer("no reachable pose: nothing of the plane is within the arm's reach with this tool axis");
     }
-    task.x = span_mm(x_, reach ? reach->x : Range{});
-    task.y = span_mm(y_, reach ? reach->y : Range{});
+    task.x = span(x_, reach ? reach->x : Range{});
+    task.y = span(y_, reach ? reach->y : Range{});
     if (static_cast<double>(task.x.count) * task.y.count > kMostPoints) {
       throw usage("--x, --y: expected at most " + std::to_string(kMostPoints) + " points");
     }
     const Range degrees = redundancy_.value_or(kDefaultRedundancyDeg);
     if (degrees.to - degrees.from > 360) throw usage("--redundancy: expected at most a full turn");
+    if (degrees.count > kMostTurns) {
+      throw usage("--redundancy: expected at most " + std::to_string(kMostTurns) + " angles");
+    }
     task.redundancy = {radians_from_degrees(degrees.from), radians_from_degrees(degrees.to), degrees.count};
     return task;
   }
@@ -295,6 +300,11 @@ class BestPose : public cli::Tool {
       document.evaluated.push_back(
           report_pose(robot, angles, document.task, compliance, document.covariance));
       const PoseReport& report = document.evaluated.back();
+      if (std::isnan(report.score)) {
+        warn(input.source.name + ": /poses/" + std::to_string(document.evaluated.size() - 1) +
+             ": a singular pose: the arm cannot yield in a direction that the index looks at, so there is no "
+             "score");
+      }
       if (report.limit_margin_rad < 0) {
         char text[80];
         std::snprintf(text, sizeof text, "%.3f degrees outside the joint limits",
@@ -308,7 +318,7 @@ class BestPose : public cli::Tool {
 
   std::string index_name() const { return index_.empty() ? "combined" : index_; }
 
-  std::string robot_path_, index_, force_frame_ = "base", map_path_, evaluate_path_;
+  std::string robot_path_, index_, force_frame_, map_path_, evaluate_path_;
   std::optional<double> height_mm_, limit_margin_deg_, singularity_margin_;
   Vector plane_origin_, plane_x_, plane_y_, tool_axis_, force_;
   std::optional<Range> x_, y_, redundancy_;

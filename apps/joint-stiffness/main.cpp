@@ -22,6 +22,7 @@ namespace {
 // each axis.
 constexpr std::array<std::array<double, 3>, 3> kPlanLoads = {{{600, 0, 0}, {0, 600, 0}, {0, 0, -600}}};
 constexpr double kPlanStdMm = 0.005;
+constexpr int kMostPlanned = 10'000;
 
 class JointStiffnessTool : public cli::Tool {
  public:
@@ -33,6 +34,8 @@ class JointStiffnessTool : public cli::Tool {
              "joint-stiffness") {}
 
  private:
+  using Vector = std::optional<std::array<double, 3>>;
+
   void setup(CLI::App& app) override {
     not_in_provenance(
         app.add_option("--robot", robot_path_, "Robot document: kinematics, flange, tool (required)")
@@ -74,6 +77,10 @@ class JointStiffnessTool : public cli::Tool {
     cli::add_number_option(app, "--std-mm", std_mm_,
                            "Deviation of a measured component, for a plan (default: 0.005)",
                            "a number above 0", positive);
+    cli::add_vector_option(app, "--load-point", load_point_mm_,
+                           "Where a plan's loads act, mm, flange frame (default: the tool point)");
+    cli::add_vector_option(app, "--measuring-point", measuring_point_mm_,
+                           "Whose displacement a plan measures, mm, flange frame (default: the tool point)");
     not_in_provenance(app.add_option("--expected", expected_path_,
                                      "Expected joint stiffness, for a plan's deviations in N m/rad")
                           ->type_name("FILE"));
@@ -82,8 +89,15 @@ class JointStiffnessTool : public cli::Tool {
   void run() override {
     if (robot_path_.empty())
       throw cli::Failure(cli::ExitStatus::kUsage, "--robot: missing: expected a robot document");
-    if (!plan_ && (!loads_.empty() || std_mm_ || !expected_path_.empty())) {
-      throw cli::Failure(cli::ExitStatus::kUsage, "--load, --std-mm, --expected: expected with --plan only");
+    const bool for_plan =
+        !loads_.empty() || std_mm_ || !expected_path_.empty() || load_point_mm_ || measuring_point_mm_;
+    if (!plan_ && for_plan) {
+      throw cli::Failure(
+          cli::ExitStatus::kUsage,
+          "--load, --std-mm, --expected, --load-point, --measuring-point: expected with --plan only");
+    }
+    if (plan_ && (!from_.empty() || !loss_.empty())) {
+      throw cli::Failure(cli::ExitStatus::kUsage, "--from, --loss: expected without --plan");
     }
     const cli::Input robot_input = read_input(robot_path_, true);
     const Robot robot = robot_from_json(robot_input.document, robot_input.source);
@@ -159,11 +173,18 @@ class JointStiffnessTool : public cli::Tool {
         LoadSample sample;
         sample.angles = poses[p];
         sample.force_n = Eigen::Vector3d(load.data());
-        sample.force_point = sample.measuring_point = robot.tool.translation();
+        const auto point = [&](const Vector& mm) {
+          return mm ? Eigen::Vector3d(Eigen::Vector3d(mm->data()) * 1e-3) : robot.tool.translation();
+        };
+        sample.force_point = point(load_point_mm_);
+        sample.measuring_point = point(measuring_point_mm_);
         sample.deflection_std_m = Eigen::Vector3d::Constant(std_mm_.value_or(kPlanStdMm) * 1e-3);
         document.candidates.push_back(sample);
         document.pose.push_back(static_cast<int>(p));
       }
+    }
+    if (*plan_ > kMostPlanned) {
+      throw cli::Failure(cli::ExitStatus::kUsage, "--plan: expected at most " + std::to_string(kMostPlanned));
     }
     document.plan = plan_measurements(robot, document.candidates, components_, *plan_);
     for (int j = 0; j < kJoints; ++j) {
@@ -175,11 +196,12 @@ class JointStiffnessTool : public cli::Tool {
     write_document(main_output(), plan_to_json(document, robot));
   }
 
-  std::string robot_path_, from_, loss_ = "squared", expected_path_;
+  std::string robot_path_, from_, loss_, expected_path_;
   std::array<bool, 3> components_ = {true, true, true};
   std::optional<int> plan_;
   std::vector<std::array<double, 3>> loads_;
   std::optional<double> std_mm_;
+  Vector load_point_mm_, measuring_point_mm_;
 };
 
 }  // namespace

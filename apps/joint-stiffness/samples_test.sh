@@ -81,6 +81,7 @@ jq '.samples |= map(select(.force_n[2] != 0) | .joints_deg[3] = 0 | .joints_deg[
 joint-stiffness --robot "$robot" --quiet down.json -o down-found.json
 check_jq "tool down, vertical loads: joints 2 and 3" down-found.json '.identifiable == [false, true, true, false, false, false] and .rank == 2'
 jq '.samples[].force_n = [0, 0, 0]' loads.json >unloaded.json
+refused 1 '^joint-stiffness: unloaded.json: no joint can be identified: A1 is not seen' joint-stiffness --loss huber --robot "$robot" unloaded.json
 refused 1 '^joint-stiffness: unloaded.json: no joint can be identified: A1 is not seen' joint-stiffness --robot "$robot" unloaded.json
 
 # Plans.
@@ -90,4 +91,7 @@ check_jq "a plan" plan.json '(.samples | length) == 6 and .rank == 5 and .std_n_
 joint-stiffness --robot offset.json --plan 12 --load 500,0,0 --load 0,0,-500 --std-mm 0.01 poses.json -o plan.json
 check_jq "a plan with its own loads" plan.json '([.samples[].force_n] | unique | length) <= 2 and .rank == 6'
 refused 1 'too few samples: 1 cannot tell' joint-stiffness --robot "$robot" --plan 1 --quiet poses.json
-refused 64 '^joint-stiffness: --load, --std-mm, --expected: expected with --plan only' joint-stiffness --robot "$robot" --std-mm 1 loads.json
+joint-stiffness --robot "$robot" --plan 12 --load-point 150,50,210 --measuring-point 150,50,210 poses.json -o plan.json
+check_jq "a plan with points off the axis sees joint 6" plan.json '.rank == 6 and (.identifiable | all)'
+refused 64 '^joint-stiffness: --from, --loss: expected without --plan' joint-stiffness --robot "$robot" --plan 3 --loss huber poses.json
+refused 64 '^joint-stiffness: --load, --std-mm, --expected, --load-point, --measuring-point: expected with --plan only' joint-stiffness --robot "$robot" --std-mm 1 loads.json

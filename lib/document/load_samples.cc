@@ -7,9 +7,14 @@
 namespace stablecut {
 namespace {
 
-constexpr Bound kDeviation{.least = 0, .open_least = true, .words = "a standard deviation above 0"};
+constexpr Bound kDeviation{
+    .least = 1e3 * kLeastDeviation, .most = 1e3 * kLargestLength, .words = "a standard deviation above 0"};
+constexpr Bound kLength{
+    .least = -1e3 * kLargestLength, .most = 1e3 * kLargestLength, .words = "a length in mm"};
+constexpr Bound kRotation{.least = -kLargestAngle, .most = kLargestAngle, .words = "an angle in rad"};
 
-constexpr Bound kLoad{.least = -1e9, .most = 1e9, .words = "a force in N or a moment in N m"};
+constexpr Bound kLoad{
+    .least = -kLargestLoad, .most = kLargestLoad, .words = "a force in N or a moment in N m"};
 
 // One number for all directions or one for each.
 Eigen::Vector3d deviations_from(const Node& node) {
@@ -23,7 +28,7 @@ Eigen::Vector3d measured(const Node& node, const std::array<bool, 3>& components
   Eigen::Vector3d value = Eigen::Vector3d::Zero();
   for (int d = 0; d < 3; ++d) {
     const Node& item = items[static_cast<std::size_t>(d)];
-    if (components[static_cast<std::size_t>(d)] || !item.is_null()) value[d] = item.number();
+    if (components[static_cast<std::size_t>(d)] || !item.is_null()) value[d] = item.number(kLength);
   }
   return value;
 }
@@ -44,11 +49,12 @@ LoadSamplesDocument load_samples_from_json(const Json& document, const Source& s
     sample.force_n = vector_from(item.at("force_n"), kLoad);
     sample.deflection_m = measured(item.at("deflection_mm"), components) * 1e-3;
     if (const auto moment = item.find("moment_n_m")) sample.moment_n_m = vector_from(*moment, kLoad);
-    if (const auto rotation = item.find("rotation_rad")) sample.rotation_rad = vector_from(*rotation);
+    if (const auto rotation = item.find("rotation_rad"))
+      sample.rotation_rad = vector_from(*rotation, kRotation);
     const Eigen::Vector3d tool_point = robot.tool.translation();
     const auto point = [&](const char* name) {
       const auto node = item.find(name);
-      return node ? Eigen::Vector3d(vector_from(*node) * 1e-3) : tool_point;
+      return node ? Eigen::Vector3d(vector_from(*node, kLength) * 1e-3) : tool_point;
     };
     sample.force_point = point("force_point_mm");
     sample.measuring_point = point("measuring_point_mm");

@@ -9,13 +9,17 @@
 
 namespace stablecut {
 
+/// Bounds of what a sample may hold, SI: N or N m, m, rad, and the least deviation (m or rad).
+inline constexpr double kLargestLoad = 1e9, kLargestLength = 1e3, kLargestAngle = 175,
+                        kLeastDeviation = 1e-15;
+
 struct LoadSamplesDocument {
   std::vector<LoadSample> samples;
   std::vector<std::string> places;  ///< JSON pointer or line of each, for messages
 };
 
-/// Deflection components that are not in `components` may be null or missing. Points default to the robot's
-/// tool point. Throws DataError; also where some samples state a deviation and others do not.
+/// Deflection components that are not in `components` may be null in JSON and missing in CSV. Points default
+/// to the robot's tool point. Throws DataError; also where some samples state a deviation and others do not.
 LoadSamplesDocument load_samples_from_json(const Json& document, const Source& source, const Robot& robot,
                                            const std::array<bool, 3>& components);
 

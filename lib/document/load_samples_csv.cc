@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstring>
 #include <optional>
 #include <string>
@@ -68,6 +69,25 @@ std::pair<std::string, std::string> name_and_unit(std::string header, const std:
   if (unit.find("\xC2\xB0") != std::string::npos) unit = "deg";
   std::erase_if(unit, [](unsigned char c) { return !std::isalnum(c) || c > 127; });
   return {name, unit};
+}
+
+// In SI: far beyond any robot, and far within what the arithmetic bears. The JSON reader has the same bounds.
+double largest(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::kForce:
+    case Quantity::kMoment:
+      return kLargestLoad;
+    case Quantity::kDeflection:
+    case Quantity::kForcePoint:
+    case Quantity::kMeasuringPoint:
+    case Quantity::kStd:
+      return kLargestLength;
+    case Quantity::kJoint:
+    case Quantity::kRotation:
+    case Quantity::kStdRotation:
+      return kLargestAngle;
+  }
+  return 0;
 }
 
 struct Known {
@@ -202,7 +222,8 @@ LoadSamplesDocument load_samples_from_csv(const Source& source, const Robot& rob
   }
 
   // Of moments, rotations and points all three or none: a missing one is not 0.
-  for (const auto& [quantity, name] : {std::pair<Quantity, std::string>{Quantity::kRotation, "r"},
+  for (const auto& [quantity, name] : {std::pair<Quantity, std::string>{Quantity::kMoment, "m"},
+                                       {Quantity::kRotation, "r"},
                                        {Quantity::kForcePoint, "force_point_"},
                                        {Quantity::kMeasuringPoint, "measuring_point_"}}) {
     if (!find(quantity, 0) && !find(quantity, 1) && !find(quantity, 2)) continue;
@@ -229,7 +250,12 @@ LoadSamplesDocument load_samples_from_csv(const Source& source, const Robot& rob
       if (!column) return std::nullopt;
       if (quantity == Quantity::kDeflection && !components[static_cast<std::size_t>(component)])
         return std::nullopt;
-      return table_number(source, row, *column, "a number") * columns[*column]->to_si;
+      const double si = table_number(source, row, *column, "a number") * columns[*column]->to_si;
+      if (!(std::abs(si) <= largest(quantity))) {
+        throw DataError(source.name, line_place(row.line), row.fields[*column],
+                        "expected a number of a robot's size");
+      }
+      return si;
     };
     const auto vector = [&](Quantity quantity) -> std::optional<Eigen::Vector3d> {
       Eigen::Vector3d v = Eigen::Vector3d::Zero();
@@ -245,7 +271,7 @@ LoadSamplesDocument load_samples_from_csv(const Source& source, const Robot& rob
     const auto deviation = [&](Quantity quantity) -> std::optional<Eigen::Vector3d> {
       const auto x = value(quantity, 0);
       if (!x) return std::nullopt;
-      if (!(*x > 0)) {
+      if (!(*x >= kLeastDeviation)) {
         throw DataError(source.name, line_place(row.line), row.fields[*find(quantity, 0)],
                         "expected a standard deviation above 0");
       }

@@ -10,9 +10,6 @@
 namespace stablecut {
 namespace {
 
-// In an arm's singular poses the tool point cannot yield in some direction: its stiffness there is no number.
-constexpr double kRigid = 1e-12;
-
 double in_score_unit(double score, StiffnessIndex index) {
   return index == StiffnessIndex::kDeflection ? score * 1e6 : score;
 }
@@ -23,12 +20,11 @@ Json to_json(const PoseReport& report, const StiffnessTask& task) {
   Json pose = {{"joints_deg", joint_angles_to_json(report.angles)},
                {"tcp_mm", to_json(report.tool.translation() * 1e3)},
                {"redundancy_deg", document_degrees(report.redundancy_rad)},
-               {"score", in_score_unit(report.score, task.index)}};
+               {"score", number_or_null(in_score_unit(report.score, task.index))}};
   if (report.score_std) pose["score_std"] = in_score_unit(*report.score_std, task.index);
   Json principal = Json::array();
   for (const double compliance : report.principal_compliance) {
-    const bool yields = compliance > kRigid * report.principal_compliance[0];
-    principal.push_back(yields ? Json(1 / compliance) : Json(nullptr));
+    principal.push_back(compliance > 0 ? Json(1 / compliance) : Json(nullptr));
   }
   pose["principal_stiffness_n_per_m"] = std::move(principal);
   Json directional = Json::array();
@@ -145,6 +141,8 @@ Json evaluation_to_json(const PoseDocument& document) {
   std::vector<std::size_t> order(poses.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    if (std::isnan(poses[a].score) || std::isnan(poses[b].score))
+      return !std::isnan(poses[a].score) && std::isnan(poses[b].score);
     return document.task.larger_is_better() ? poses[a].score > poses[b].score
                                             : poses[a].score < poses[b].score;
   });
@@ -154,7 +152,7 @@ Json evaluation_to_json(const PoseDocument& document) {
   for (std::size_t i = 0; i < poses.size(); ++i) {
     Json pose = to_json(poses[i], document.task);
     pose["rank"] = rank[i];
-    if (document.covariance && i != order.front()) {
+    if (document.covariance && i != order.front() && std::isfinite(poses[i].score)) {
       pose["probability_better"] =
           probability_better(poses[i], poses[order.front()], document.task, *document.covariance);
     }

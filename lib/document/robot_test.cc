@@ -79,11 +79,11 @@ TEST_CASE("spreadsheet headers: names, units and order are the user's") {
   const Robot robot = robot_from_json(parse_json(robot_source), robot_source);
   const Source csv{"t.csv",
                    "\xEF\xBB\xBF\"q6\"\tJ5\tA4 [rad]\taxis 3\ttheta2\tA1 (deg)\tForce X\tf_y_kn\tFz/N\tMx [N "
-                   "m]\trx\try\trot_z_mrad\t"
+                   "m]\tMy\tMz\trx\try\trot_z_mrad\t"
                    "Delta x (\xc2\xb5m)\tuy\tdisplacement_z_m\tmeasuring point x [mm]\tmeasuring point y "
                    "[mm]\tmeasuring point z [mm]\tstd_um\tstd_rad\tcomment\r\n"
-                   "6\t5\t0,5\t3\t2\t1\t10\t0,02\t-30\t4\t0\t0\t5\t100\t0,2\t0,0003\t150\t0\t0\t8\t1e-"
-                   "5\tfirst\r\n\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\r\n"};
+                   "6\t5\t0,5\t3\t2\t1\t10\t0,02\t-30\t4\t0\t0\t0\t0\t5\t100\t0,2\t0,0003\t150\t0\t0\t8\t1e-"
+                   "5\tfirst\r\n\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\r\n"};
   const auto document = load_samples_from_csv(csv, robot, {true, true, true});
   REQUIRE(document.samples.size() == 1);
   const LoadSample& sample = document.samples.front();

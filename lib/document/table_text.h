@@ -15,8 +15,9 @@ struct TableRow {
 };
 
 /// The rows of the text. The separator is the first of tab, semicolon, comma that the first row holds, else
-/// blanks, or what a first line `sep=;` says. CRLF, a byte-order mark and quotes around a field are taken off; a
-/// separator inside quotes is none. A comma inside a field is read as a point where the field is then a number.
+/// blanks, or what a first line `sep=;` says. CRLF, a byte-order mark and quotes around a field are taken
+/// off; a separator inside quotes is none. A comma inside a field is read as a point where the field is then
+/// a number.
 std::vector<TableRow> table_rows(const Source& source);
 
 /// True when no field of the row is a number: a header.

@@ -58,6 +58,10 @@ InverseKinematics::InverseKinematics(const Robot& robot)
                           std::to_string(bad->value) + ": expected " + bad->expected);
   }
   const auto& j = robot.joints;
+  for (const Joint& joint : j) {
+    if (!std::isfinite(joint.half_range_rad()))
+      throw InvalidArgument("joint " + joint.name + ": expected finite limits");
+  }
   ArmConstants& k = constants_;
   k.cos_alpha0 = j[0].cos_alpha();
   k.sin_alpha0 = j[0].sin_alpha();

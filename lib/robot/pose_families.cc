@@ -11,14 +11,12 @@ namespace {
 constexpr double kSameAngle = 1e-4;  // rad
 
 bool inside(const Range& range, double value) {
-  return value >= range.from - 1e-12 && value <= range.to + 1e-12;
+  return value >= range.from - 1e-9 && value <= range.to + 1e-9;
 }
 
-// The pose with one joint elsewhere, if the task's intervals and limits allow it.
-std::optional<FoundPose> turned(const PoseScanner& scanner, const FoundPose& found, int joint, double angle) {
+// Where the tool of a pose stands in the task's space; nothing outside its intervals and limits.
+std::optional<FoundPose> placed(const PoseScanner& scanner, FoundPose pose) {
   const PoseTask& task = scanner.task();
-  FoundPose pose = found;
-  pose.angles[joint] = angle;
   if (limit_margin_rad(scanner.robot(), pose.angles) < task.limit_margin_rad - 1e-9) return std::nullopt;
   const Eigen::Isometry3d tool = robot_pose(scanner.robot(), pose.angles).tool;
   const Eigen::Vector3d offset = tool.translation() - task.plane.origin;
@@ -28,9 +26,25 @@ std::optional<FoundPose> turned(const PoseScanner& scanner, const FoundPose& fou
   // The turn of the interval, of all copies by whole turns.
   const double turn = redundancy_angle(tool), middle = 0.5 * (task.redundancy.from + task.redundancy.to);
   pose.at.redundancy = task.full_turn() ? turn : turn + kTwoPi * std::nearbyint((middle - turn) / kTwoPi);
-  const bool turn_allowed = task.full_turn() || inside(task.redundancy, pose.at.redundancy);
-  if (!turn_allowed || !inside(task.x, pose.at.x) || !inside(task.y, pose.at.y)) return std::nullopt;
+  if (!task.full_turn() && !inside(task.redundancy, pose.at.redundancy)) return std::nullopt;
+  if (!inside(task.x, pose.at.x) || !inside(task.y, pose.at.y)) return std::nullopt;
   return pose;
+}
+
+// The pose with one joint elsewhere, if the task's intervals and limits allow it. Where the redundancy cannot
+// matter but is bounded, joint 6 takes a turn of the base back.
+std::optional<FoundPose> turned(const PoseScanner& scanner, const FoundPose& found, int joint, double angle) {
+  FoundPose pose = found;
+  pose.angles[joint] = angle;
+  if (joint == 0 && !scanner.redundancy_matters() && !scanner.task().full_turn()) {
+    const double turn = redundancy_angle(robot_pose(scanner.robot(), pose.angles).tool);
+    pose.angles[5] += scanner.turn_sense() * std::remainder(found.at.redundancy - turn, kTwoPi);
+    pose.angles = most_central_copies(scanner.robot(), pose.angles);
+    pose.angles[joint] = angle;
+  }
+  auto result = placed(scanner, pose);
+  if (result && scanner.task().redundancy.is_point()) result->at.redundancy = found.at.redundancy;
+  return result;
 }
 
 }  // namespace
@@ -49,7 +63,7 @@ Symmetry symmetry_of(const PoseScanner& scanner) {
                           task.stiffness.force_in_tool || along_axis1(*task.stiffness.force_n);
   symmetry.base_turn = load_turns && along_axis1(task.tool_axis) &&
                        along_axis1(task.plane.x_axis.cross(task.plane.y_axis)) && !task.x.is_point() &&
-                       !task.y.is_point() && (!task.redundancy.is_point() || symmetry.tool_turn);
+                       !task.y.is_point() && (!task.redundancy.is_point() || !scanner.redundancy_matters());
   return symmetry;
 }
 

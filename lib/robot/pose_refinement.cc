@@ -89,8 +89,7 @@ class Refinement {
     result.constraints.resize(kJoints + (away ? 1 : 0));
     for (int j = 0; j < kJoints; ++j) {
       const Joint& joint = scanner_.robot().joints[j];
-      result.constraints[j] = joint.half_range_rad() - std::abs(evaluation->angles[j] - joint.middle_rad()) -
-                              task_.limit_margin_rad;
+      result.constraints[j] = joint.margin_rad(evaluation->angles[j]) - task_.limit_margin_rad;
     }
     if (away) {
       result.constraints[kJoints] =

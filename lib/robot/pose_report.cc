@@ -1,6 +1,8 @@
 #include "robot/pose_report.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/statistics.h"
 
@@ -39,13 +41,25 @@ PoseReport report_pose(const Robot& robot, const JointAngles& angles, const Stif
   report.redundancy_rad = redundancy_angle(pose.tool);
   report.score = stiffness_score(compliance, axes, task);
   report.principal_compliance = principal_compliances(compliance);
-  for (int i = 0; i < 3; ++i)
-    report.directional_stiffness[i] = directional_stiffness(compliance, axes.col(i));
+  // Rounding leaves about 1e-16 of the compliance where the arm cannot yield at all.
+  const double rigid = 1e-12 * report.principal_compliance[0];
+  report.principal_compliance =
+      (report.principal_compliance.array() > rigid).select(report.principal_compliance, 0.0);
+  for (int i = 0; i < 3; ++i) {
+    const double yielded = (compliance * axes.col(i)).norm();
+    report.directional_stiffness[i] = yielded > rigid ? 1 / yielded : std::numeric_limits<double>::infinity();
+  }
+  const bool all = task.index == StiffnessIndex::kCombined, axial = task.index == StiffnessIndex::kAxial;
+  if ((all && !report.directional_stiffness.allFinite()) ||
+      (axial && std::isinf(report.directional_stiffness[2]))) {
+    report.score = std::numeric_limits<double>::quiet_NaN();
+  }
   report.limit_margin_rad = limit_margin_rad(robot, angles);
   report.singularity_margin = singularity_margin(pose);
   report.score_gradient = gradient(pose, joint_compliance,
                                    [&](const Eigen::Matrix3d& c) { return stiffness_score(c, axes, task); });
-  if (covariance) report.score_std = deviation(report.score_gradient, *covariance);
+  if (covariance && std::isfinite(report.score))
+    report.score_std = deviation(report.score_gradient, *covariance);
   if (task.force_n) {
     const Eigen::Vector3d force = force_in_base(task, axes);
     report.deflection_m = compliance * force;

@@ -11,11 +11,13 @@ namespace stablecut {
 
 struct PoseReport {
   JointAngles angles;
-  Eigen::Isometry3d tool;                       ///< base frame, m
-  double redundancy_rad = 0;                    ///< about the tool's own axis
-  double score = 0;                             ///< N/m, or m for a deflection
-  Eigen::Vector3d principal_compliance;         ///< m/N, largest first; about 0 where the arm cannot yield
-  Eigen::Vector3d directional_stiffness;        ///< along the tool's x, y, z, N/m
+  Eigen::Isometry3d tool;     ///< base frame, m
+  double redundancy_rad = 0;  ///< about the tool's own axis
+  /// N/m, or m for a deflection; NaN where the arm cannot yield in a direction that the index looks at.
+  double score = 0;
+  Eigen::Vector3d principal_compliance;  ///< m/N, largest first; 0 where the arm cannot yield
+  /// Along the tool's x, y, z, N/m; infinite where the arm cannot yield (at a singular pose).
+  Eigen::Vector3d directional_stiffness;
   std::optional<Eigen::Vector3d> deflection_m;  ///< under the force, base frame
   double limit_margin_rad = 0;
   double singularity_margin = 0;

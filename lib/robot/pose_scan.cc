@@ -129,8 +129,7 @@ void PoseScanner::visit(double x, double y, PointScan& result, const Use& use) c
   for (int b = 0; b < kBranches; ++b) {
     margin_of_five[b] = std::isfinite(lanes.limit_margin[b]) ? kInfinity : -kInfinity;
     for (int j = 0; j < 5; ++j) {
-      margin_of_five[b] =
-          std::min(margin_of_five[b], k.half_range[j] - std::abs(lanes.angle[j][b] - k.middle[j]));
+      margin_of_five[b] = std::min(margin_of_five[b], robot_.joints[j].margin_rad(lanes.angle[j][b]));
     }
   }
   if (!within(margin_of_five)) {
@@ -145,7 +144,7 @@ void PoseScanner::visit(double x, double y, PointScan& result, const Use& use) c
     for (int b = 0; b < kBranches; ++b) {
       double q6 = lanes.angle[5][b] + turn_sense_ * (sample.turn - samples_.front().turn);
       q6 += kTwoPi * std::nearbyint((k.middle[5] - q6) / kTwoPi);
-      offer(std::min(margin_of_five[b], k.half_range[5] - std::abs(q6 - k.middle[5])), i, b);
+      offer(std::min(margin_of_five[b], robot_.joints[5].margin_rad(q6)), i, b);
     }
   }
 }

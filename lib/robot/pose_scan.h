@@ -50,6 +50,9 @@ class PoseScanner {
   /// blind to it.
   bool redundancy_matters() const { return !(coaxial_ && task_.stiffness.blind_to_tool_turn()); }
 
+  /// Sense of controller angle 6 against the redundancy angle, for a coaxial tool.
+  double turn_sense() const { return turn_sense_; }
+
  private:
   struct Candidate {
     double merit, limit_margin;
@@ -67,7 +70,7 @@ class PoseScanner {
   const PoseTask& task_;
   InverseKinematics inverse_;
   bool coaxial_;
-  double turn_sense_;  // of controller angle 6 against the redundancy angle, coaxial tool
+  double turn_sense_;
   struct Sample {
     double turn;           // redundancy angle, rad
     ArmTarget target;      // for a tool point at the base's origin

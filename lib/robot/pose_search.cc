@@ -16,6 +16,8 @@
 namespace stablecut {
 namespace {
 
+constexpr const char* kOutOfReach =
+    "no reachable pose: nothing of the plane is within the arm's reach with this tool axis";
 constexpr double kLargestStep = 0.05;           // m, of the search's grid
 constexpr double kLargestTurn = 5 * kPi / 180;  // rad
 constexpr int kLeastSamples = 25;               // of an interval, however short
@@ -29,17 +31,29 @@ Range at_most_apart(const Range& range, double step) {
   return {range.from, range.to, std::max({count, kLeastSamples, range.count})};
 }
 
-// The task's samples where they are fine enough, else finer ones.
-PoseTask with_search_grid(const PoseTask& task) {
+// What of an interval is within reach.
+Range within(const Range& range, const Range& reach) {
+  const Range part{std::max(range.from, reach.from), std::min(range.to, reach.to), range.count};
+  if (!(part.from <= part.to)) throw NoAnswer(kOutOfReach);
+  return part;
+}
+
+// The task's samples where they are fine enough, else finer ones, where the arm may reach.
+PoseTask with_search_grid(const Robot& robot, const PoseTask& task) {
+  const auto reach = plane_reach(robot, task.plane, task.tool_axis);
+  if (!reach) throw NoAnswer(kOutOfReach);
   PoseTask grid = task;
-  grid.x = at_most_apart(task.x, kLargestStep);
-  grid.y = at_most_apart(task.y, kLargestStep);
+  grid.x = at_most_apart(within(task.x, reach->x), kLargestStep);
+  grid.y = at_most_apart(within(task.y, reach->y), kLargestStep);
   grid.redundancy = at_most_apart(task.redundancy, kLargestTurn);
   return grid;
 }
 
 bool same_grid(const PoseTask& a, const PoseTask& b) {
-  return a.x.count == b.x.count && a.y.count == b.y.count && a.redundancy.count == b.redundancy.count;
+  const auto same = [](const Range& r, const Range& s) {
+    return r.from == s.from && r.to == s.to && r.count == s.count;
+  };
+  return same(a.x, b.x) && same(a.y, b.y) && same(a.redundancy, b.redundancy);
 }
 
 // The best point of each of some blocks of the grid: basins whose peak the sampling of the redundancy hides.
@@ -126,13 +140,13 @@ std::vector<ScanBest> starts_outside(const PlaneScan& scan) {
   }
   const auto evaluation = std::isfinite(margin) ? scanner.evaluate(at) : std::nullopt;
   if (!evaluation) {
-    throw NoAnswer("no reachable pose: nothing of the plane is within the arm's reach with this tool axis");
+    throw NoAnswer(kOutOfReach);
   }
   int worst = 0;
   double least = std::numeric_limits<double>::infinity();
   for (int j = 0; j < kJoints; ++j) {
     const Joint& joint = robot.joints[j];
-    const double left = joint.half_range_rad() - std::abs(evaluation->angles[j] - joint.middle_rad());
+    const double left = joint.margin_rad(evaluation->angles[j]);
     if (left < least) {
       least = left;
       worst = j;
@@ -156,7 +170,7 @@ std::vector<ScanBest> starts_outside(const PlaneScan& scan) {
 
 PoseSearch search_poses(const Robot& robot, const PoseTask& task, int most_alternatives, int threads,
                         const Progress& progress, const PlaneScan* known) {
-  const PoseTask grid = with_search_grid(task);
+  const PoseTask grid = with_search_grid(robot, task);
   PlaneScan own;
   if (!known || !same_grid(known->task, grid)) {
     own = scan_plane(robot, grid, threads, progress);

@@ -33,7 +33,8 @@ void check_pose(const Robot& robot, const PoseTask& task, const FoundPose& found
 }  // namespace
 
 TEST_CASE("tool-down optima of the KR360, to 0.1 %, on limits and inside") {
-  // Independent code: 197.3 um and A2 at its limit for every index at 1.6 m; 1.2 m as in the rows.
+  // Independent code: 197.3 um and A2 at its limit for every index at 1.6 m; at 1.2 m as in the rows, where
+  // it gives 6.37e6 near A3's limit for `combined`: on the limit it is 6.381e6, as brute force confirms.
   struct Case {
     double height;
     StiffnessIndex index;
@@ -222,6 +223,37 @@ TEST_CASE("a map does not depend on the number of threads, and the search is not
     best = std::max(best, one.score.data()[k]);
   }
   CHECK(search_poses(robot, task, 5, 2).best.score >= best);
+}
+
+TEST_CASE("intervals are held, however coarse or large") {
+  const Robot robot = with_tool_offset(kr360(), 0.2);
+  PoseTask task = tool_down(robot, 1.6, StiffnessIndex::kWeakest, 2);
+  const double whole = search_poses(robot, task, 0, 2).best.score;
+  // Half a turn in two samples is not the full turn.
+  task.redundancy = {0, kPi, 2};
+  task.x = {1.2, 1.6, 3};
+  task.y = {-0.5, -0.1, 2};
+  const FoundPose half = search_poses(robot, task, 0, 2).best;
+  CHECK(half.at.redundancy >= 0);
+  CHECK(half.at.redundancy <= kPi);
+  // A plane far larger than the robot.
+  task = tool_down(robot, 1.6, StiffnessIndex::kWeakest, 2);
+  task.x = task.y = {-1e9, 1e9, 3};
+  CHECK(search_poses(robot, task, 0, 2).best.score == Approx(whole).epsilon(1e-6));
+}
+
+TEST_CASE("a fixed redundancy with a coaxial tool: joint 6 makes up for the base's turn") {
+  const Robot robot = kr360();
+  PoseTask task = tool_down(robot, 1.6, StiffnessIndex::kWeakest, 2);
+  task.redundancy = {0.4, 0.4, 1};
+  const PoseSearch search = search_poses(robot, task, 5, 2);
+  check_pose(robot, task, search.best);
+  CHECK(search.best.at.redundancy == 0.4);
+  REQUIRE(has_family(search, PoseFamily::Kind::kBaseTurn));
+  for (const PoseFamily& family : search.families) {
+    if (family.kind == PoseFamily::Kind::kBaseTurn)
+      CHECK(family.to_rad - family.from_rad > radians_from_degrees(340));
+  }
 }
 
 TEST_CASE("no pose, and why") {

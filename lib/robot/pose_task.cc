@@ -8,7 +8,9 @@
 namespace stablecut {
 
 bool PoseTask::full_turn() const {
-  return redundancy.to - redundancy.from + redundancy.step() > kTwoPi - 1e-9;
+  constexpr double kLargestGap = 5 * kPi / 180;
+  const double gap = kTwoPi - (redundancy.to - redundancy.from);
+  return gap <= std::min(redundancy.step(), kLargestGap) + 1e-9;
 }
 
 std::optional<PlaneReach> plane_reach(const Robot& robot, const Plane& plane,

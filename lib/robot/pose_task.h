@@ -29,7 +29,7 @@ struct PoseTask {
   double limit_margin_rad = 0;                         ///< to keep from every joint limit
   double singularity_margin = 0;                       ///< least singular value of J to keep
 
-  /// True when the redundancy interval closes to the full turn.
+  /// True when the redundancy interval closes to the full turn: its gap is at most a step and 5 degrees.
   bool full_turn() const;
 };
 

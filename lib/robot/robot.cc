@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/units.h"
 
@@ -19,17 +20,14 @@ void Joint::set_alpha(double rad) {
 JointAngles most_central_copies(const Robot& robot, const JointAngles& angles) {
   JointAngles moved = angles;
   for (int j = 0; j < kJoints; ++j) {
-    const double middle = robot.joints[j].middle_rad();
-    if (std::isfinite(middle)) moved[j] += kTwoPi * std::nearbyint((middle - angles[j]) / kTwoPi);
+    moved[j] += kTwoPi * std::nearbyint((robot.joints[j].middle_rad() - angles[j]) / kTwoPi);
   }
   return moved;
 }
 
 double limit_margin_rad(const Robot& robot, const JointAngles& angles) {
   double margin = std::numeric_limits<double>::infinity();
-  for (int j = 0; j < kJoints; ++j) {
-    margin = std::min({margin, angles[j] - robot.joints[j].min_rad, robot.joints[j].max_rad - angles[j]});
-  }
+  for (int j = 0; j < kJoints; ++j) margin = std::min(margin, robot.joints[j].margin_rad(angles[j]));
   return margin;
 }
 

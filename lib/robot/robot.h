@@ -4,7 +4,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
-#include <limits>
+#include <cmath>
+#include <numbers>
 #include <string>
 
 namespace stablecut {
@@ -20,8 +21,8 @@ struct Joint {
   double d_m = 0;  ///< along axis i
   double theta_sign = 1;
   double theta_offset_rad = 0;
-  double min_rad = -std::numeric_limits<double>::infinity();  ///< controller angle
-  double max_rad = std::numeric_limits<double>::infinity();
+  double min_rad = -2 * std::numbers::pi;  ///< of the controller angle; limits are finite
+  double max_rad = 2 * std::numbers::pi;
 
   /// Of link i-1: the turn between axes i-1 and i about x of frame i-1; right angles are taken exactly.
   void set_alpha(double rad);
@@ -32,6 +33,8 @@ struct Joint {
   double theta_of(double angle_rad) const { return theta_sign * angle_rad + theta_offset_rad; }
   double middle_rad() const { return 0.5 * (min_rad + max_rad); }
   double half_range_rad() const { return 0.5 * (max_rad - min_rad); }
+  /// Distance to the nearer limit; negative outside.
+  double margin_rad(double angle_rad) const { return half_range_rad() - std::abs(angle_rad - middle_rad()); }
 
  private:
   double alpha_rad_ = 0, cos_alpha_ = 1, sin_alpha_ = 0;
