@@ -31,6 +31,7 @@ Json to_json(const PoseReport& report, const StiffnessTask& task) {
   for (const double stiffness : report.directional_stiffness)
     directional.push_back(number_or_null(stiffness));
   pose["stiffness_n_per_m"] = std::move(directional);
+  pose["deflection_um"] = nullptr;  // without a force
   if (report.deflection_m) {
     pose["deflection_um"] = report.deflection_m->norm() * 1e6;
     if (report.deflection_std_m) pose["deflection_std_um"] = *report.deflection_std_m * 1e6;
