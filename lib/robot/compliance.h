@@ -37,8 +37,8 @@ struct StiffnessTask {
   bool larger_is_better() const { return index != StiffnessIndex::kDeflection; }
   /// True when turning the robot about joint 6 cannot change the score, for a tool coaxial with it.
   bool blind_to_tool_turn() const {
-    return index == StiffnessIndex::kWeakest || index == StiffnessIndex::kAxial ||
-           (index == StiffnessIndex::kDeflection && !force_in_tool);
+    if (index == StiffnessIndex::kDeflection && force_in_tool) return force_n && force_n->head<2>().isZero(0);
+    return index != StiffnessIndex::kCombined;
   }
 };
 

@@ -256,6 +256,16 @@ TEST_CASE("a fixed redundancy with a coaxial tool: joint 6 makes up for the base
   }
 }
 
+TEST_CASE("a thrust along a coaxial tool does not feel its turn, a force across it does") {
+  const Robot robot = kr360();
+  PoseTask task = tool_down(robot, 1.6, StiffnessIndex::kDeflection, 2);
+  task.stiffness.force_in_tool = true;
+  task.stiffness.force_n = Eigen::Vector3d(0, 0, 500);
+  CHECK_FALSE(search_poses(robot, task, 0, 2).redundancy_matters);
+  task.stiffness.force_n = Eigen::Vector3d(100, 0, 500);
+  CHECK(search_poses(robot, task, 0, 2).redundancy_matters);
+}
+
 TEST_CASE("no pose, and why") {
   const Robot robot = kr360();
   PoseTask task = tool_down(robot, 1.6, StiffnessIndex::kCombined, 2);
