@@ -1,0 +1,187 @@
+#include "receptance/beam.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+
+namespace stablecut {
+namespace {
+
+using Complex = std::complex<double>;
+
+// Below this size of wavenumber times length the series are used, above it the functions themselves.
+constexpr double kSeriesLimit = 2;
+constexpr int kMostTerms = 40;
+
+// A segment at one frequency. With the deflection w and the section's rotation psi, V' = -rho A w^2 w, M' =
+// -V - rho I w^2 psi, psi' = M / EI, w' = psi + V / (kappa G A); solutions exp(s x) with s^2 = p or q, the
+// roots of (z + a) (z + b) = c4, where a = rho A w^2 / (kappa G A), b = rho I w^2 / EI, c4 = rho A w^2 / EI.
+// In Euler and Bernoulli's theory a = b = 0.
+struct Waves {
+  Complex bending;  // EI
+  double inertia;   // rho A w^2
+  Complex a, b, c4;
+  Complex p, q;  // p = beta^2, q = -alpha^2
+};
+
+Waves waves_of(const BeamSegment& s, BeamTheory theory, double omega) {
+  for (const double size :
+       {s.length_m, s.outer_diameter_m, s.youngs_modulus_pa, s.density_kg_per_m3, omega}) {
+    if (!(size > 0))
+      throw InvalidArgument("beam: " + std::to_string(size) + ": expected sizes and a frequency above 0");
+  }
+  if (!(s.inner_diameter_m >= 0 && s.inner_diameter_m < s.outer_diameter_m)) {
+    throw InvalidArgument("beam: inner diameter " + std::to_string(s.inner_diameter_m) +
+                          " m: expected at least 0 and less than the outer");
+  }
+  const double pi = std::numbers::pi;
+  const double outer2 = s.outer_diameter_m * s.outer_diameter_m,
+               inner2 = s.inner_diameter_m * s.inner_diameter_m;
+  const double area = pi / 4 * (outer2 - inner2),
+               second_moment = pi / 64 * (outer2 * outer2 - inner2 * inner2);
+  const Complex modulus = s.youngs_modulus_pa * Complex(1, s.loss_factor);
+  Waves w;
+  w.bending = modulus * second_moment;
+  w.inertia = s.density_kg_per_m3 * area * omega * omega;
+  w.c4 = w.inertia / w.bending;
+  if (theory == BeamTheory::kTimoshenko) {
+    const double kappa = cowper_shear_coefficient(s.inner_diameter_m / s.outer_diameter_m, s.poisson_ratio);
+    w.a = w.inertia / (kappa * area * modulus / (2 * (1 + s.poisson_ratio)));
+    w.b = s.density_kg_per_m3 * second_moment * omega * omega / w.bending;
+  }
+  const Complex root = std::sqrt(0.25 * (w.a - w.b) * (w.a - w.b) + w.c4);
+  w.q = -0.5 * (w.a + w.b) - root;
+  w.p = (w.a * w.b - w.c4) / w.q;  // not by the difference, which cancels
+  return w;
+}
+
+// Entire functions of p and q at x, by their series: with P_n = sum over i + j = n of p^i q^j,
+// e2 = sum x^2k/(2k)! P_(k-1), u = 1 - pq sum x^2k/(2k)! P_(k-2), D = sum x^2k/(2k)! P_k; o3, uo, Do the same
+// with x^(2k+1)/(2k+1)!; and the integrals of o3 and uo without a constant, i3 = -1/(pq) + ..., iu = (p +
+// q)/(pq) + ...
+struct Series {
+  Complex e2, u, d, o3, uo, d_odd, i3, iu;
+};
+
+Series series_at(const Waves& w, double x) {
+  const Complex pq = w.a * w.b - w.c4, sum = -(w.a + w.b);
+  Series s{0, 1, 1, 0, x, x, -1.0 / pq, sum / pq + 0.5 * x * x};
+  // P_(k-1), P_(k-2), P_(k-3) for k = 1.
+  Complex p1 = 1, p2 = 0, p3 = 0;
+  double even = 1;  // x^2k/(2k)!
+  for (int k = 1; k < kMostTerms; ++k) {
+    even *= x * x / (2 * k * (2 * k - 1));
+    const double odd = even * x / (2 * k + 1);
+    const Complex p0 = sum * p1 - pq * p2;  // P_k
+    s.e2 += even * p1;
+    s.u -= pq * even * p2;
+    s.d += even * p0;
+    s.o3 += odd * p1;
+    s.uo -= pq * odd * p2;
+    s.d_odd += odd * p0;
+    s.i3 += even * p2;
+    s.iu -= pq * even * p3;
+    p3 = p2;
+    p2 = p1;
+    p1 = p0;
+  }
+  return s;
+}
+
+// Two solutions at a place: columns; deflection and rotation above, force and moment that the place's end
+// takes below.
+struct Pair {
+  Eigen::Matrix2cd movement, load;
+};
+
+// e0 and e2: even; o1 and o3: odd. Solutions e0 = u - a e2 and o1 = uo - a o3 have M = EI c4 e2 and EI c4 o3.
+Pair even_by_series(const Waves& w, const Series& s) {
+  const Complex integral0 = s.uo - w.a * s.o3, pq = w.a * w.b - w.c4;
+  Pair pair;
+  pair.movement << s.u - w.a * s.e2, s.e2, -pq * s.o3 - w.a * s.d_odd + w.a * integral0, s.d_odd + w.a * s.o3;
+  pair.load << -w.inertia * integral0, -w.inertia * s.o3, w.bending * w.c4 * s.e2,
+      w.bending * (s.d + w.a * s.e2);
+  return pair;
+}
+
+Pair odd_by_series(const Waves& w, const Series& s) {
+  const Complex integral1 = s.iu - w.a * s.i3;
+  Pair pair;
+  pair.movement << s.uo - w.a * s.o3, s.o3, s.u - w.a * s.e2 + w.a * integral1, s.e2 + w.a * s.i3;
+  pair.load << -w.inertia * integral1, -w.inertia * s.i3, w.bending * w.c4 * s.o3,
+      w.bending * (s.d_odd + w.a * s.o3);
+  return pair;
+}
+
+// The same by cos and cosh, sin and sinh, the hyperbolic ones over cosh(beta x).
+std::pair<Pair, Pair> by_functions(const Waves& w, double x) {
+  const Complex alpha = std::sqrt(-w.q), beta = std::sqrt(w.p);
+  const Complex decay = std::exp(-2.0 * beta * x), tanh = (1.0 - decay) / (1.0 + decay);
+  const Complex sine = std::sin(alpha * x), cosine = std::cos(alpha * x);
+  const Complex turn_a = alpha - w.a / alpha, turn_b = beta + w.a / beta;
+  const Complex moment_a = w.bending * (w.q + w.a), moment_b = w.bending * (w.p + w.a);
+  Pair even, odd;
+  even.movement << cosine, 1, -turn_a * sine, turn_b * tanh;
+  even.load << -w.inertia * sine / alpha, -w.inertia * tanh / beta, moment_a * cosine, moment_b;
+  odd.movement << sine, tanh, turn_a * cosine, turn_b;
+  odd.load << w.inertia * cosine / alpha, -w.inertia / beta, moment_a * sine, moment_b * tanh;
+  return {even, odd};
+}
+
+bool series_suffice(const Waves& w, double x) {
+  return std::sqrt(std::max(std::abs(w.p), std::abs(w.q))) * x < kSeriesLimit;
+}
+
+Eigen::Matrix2cd receptance(const Pair& pair) { return pair.movement * pair.load.inverse(); }
+
+}  // namespace
+
+double cowper_shear_coefficient(double ratio, double poisson) {
+  const double m2 = ratio * ratio, one = (1 + m2) * (1 + m2);
+  return 6 * (1 + poisson) * one / ((7 + 6 * poisson) * one + (20 + 12 * poisson) * m2);
+}
+
+// Motion that is even and odd about the middle: each an own problem of two unknowns, in which nothing
+// cancels.
+BeamReceptances free_free_receptances(const BeamSegment& segment, BeamTheory theory, double omega_rad_per_s) {
+  const Waves w = waves_of(segment, theory, omega_rad_per_s);
+  const double half = 0.5 * segment.length_m;
+  Eigen::Matrix2cd even, odd;
+  if (series_suffice(w, half)) {
+    const Series s = series_at(w, half);
+    even = receptance(even_by_series(w, s));
+    odd = receptance(odd_by_series(w, s));
+  } else {
+    const auto pairs = by_functions(w, half);
+    even = receptance(pairs.first);
+    odd = receptance(pairs.second);
+  }
+  // Mirrored at the middle the deflection keeps its sign and the slope changes it.
+  const Eigen::Vector2cd mirror(1, -1);
+  const Eigen::Matrix2cd sum = 0.5 * (even + odd), difference = 0.5 * (even - odd);
+  return {sum, difference * mirror.asDiagonal(), mirror.asDiagonal() * difference,
+          mirror.asDiagonal() * sum * mirror.asDiagonal()};
+}
+
+Eigen::Matrix2cd fixed_free_receptance(const BeamSegment& segment, BeamTheory theory,
+                                       double omega_rad_per_s) {
+  const Waves w = waves_of(segment, theory, omega_rad_per_s);
+  if (series_suffice(w, segment.length_m)) {
+    // e2 and o3 - (a / c4) o1 neither move nor turn at x = 0.
+    const Series s = series_at(w, segment.length_m);
+    const Pair even = even_by_series(w, s), odd = odd_by_series(w, s);
+    const Complex share = w.a / w.c4;
+    Pair pair;
+    pair.movement << even.movement.col(1), odd.movement.col(1) - share * odd.movement.col(0);
+    pair.load << even.load.col(1), odd.load.col(1) - share * odd.load.col(0);
+    return receptance(pair);
+  }
+  // With waves on it the free segment is no rigid body any more, and blocking its end cancels nothing.
+  const BeamReceptances r = free_free_receptances(segment, theory, omega_rad_per_s);
+  return r.r11 - r.r12 * r.r22.inverse() * r.r21;
+}
+
+}  // namespace stablecut

@@ -1,0 +1,40 @@
+// Receptances of beams in bending: a uniform segment, free at both ends or fixed at one (Liu et al., Table 1
+// and eqs. 7 to 9, generalised to Timoshenko's beam and freed of cancellation).
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+
+namespace stablecut {
+
+enum class BeamTheory { kEulerBernoulli, kTimoshenko };
+
+/// A round bar or tube of one material.
+struct BeamSegment {
+  double length_m = 0;
+  double outer_diameter_m = 0;
+  double inner_diameter_m = 0;
+  double youngs_modulus_pa = 0;
+  double density_kg_per_m3 = 0;
+  double poisson_ratio = 0.3;
+  double loss_factor = 0;  ///< structural damping: E and G become E (1 + i eta), G (1 + i eta)
+};
+
+/// Receptances between two places, each [[h, l], [n, p]]: deflection (m) and slope (rad) per force (N) and
+/// moment (N m). The slope is d(deflection)/ds with s from the joint (end 2) towards the tip (end 1), a
+/// moment acts in its sense. In Timoshenko's theory the slope is the rotation of the section.
+struct BeamReceptances {
+  Eigen::Matrix2cd r11, r12, r21, r22;
+};
+
+/// Shear coefficient after Cowper of a round section or tube.
+double cowper_shear_coefficient(double inner_over_outer_diameter, double poisson_ratio);
+
+/// A segment free at both ends, at an angular frequency above 0 (rad/s). Relative error about 1e-13 from the
+/// rigid body to many waves. Throws InvalidArgument for sizes or frequencies that are not above 0.
+BeamReceptances free_free_receptances(const BeamSegment& segment, BeamTheory theory, double omega_rad_per_s);
+
+/// A segment fixed at its end 2, at its end 1.
+Eigen::Matrix2cd fixed_free_receptance(const BeamSegment& segment, BeamTheory theory, double omega_rad_per_s);
+
+}  // namespace stablecut
