@@ -152,6 +152,72 @@ TEST_CASE(
   CHECK(std::sqrt(sum) == Approx(6.82e-5).epsilon(1e-3));
 }
 
+namespace {
+
+// Natural frequencies (Hz) of a cantilever by finite elements after Friedman and Kosmatka (1993), whose
+// static shape functions leave an error that falls with the square of the element's length.
+Eigen::VectorXd finite_element_frequencies(const BeamSegment& beam, int elements) {
+  const double pi = std::numbers::pi, outer = beam.outer_diameter_m, inner = beam.inner_diameter_m;
+  const double area = pi / 4 * (outer * outer - inner * inner);
+  const double second = pi / 64 * (std::pow(outer, 4) - std::pow(inner, 4));
+  const double ei = beam.youngs_modulus_pa * second, length = beam.length_m / elements;
+  const double shear = cowper_shear_coefficient(inner / outer, beam.poisson_ratio) * area *
+                       beam.youngs_modulus_pa / (2 * (1 + beam.poisson_ratio));
+  const double f = 12 * ei / (shear * length * length), f2 = f * f, l = length, l2 = l * l;
+  Eigen::Matrix4d k, mt, mr;
+  k << 12, 6 * l, -12, 6 * l, 6 * l, (4 + f) * l2, -6 * l, (2 - f) * l2, -12, -6 * l, 12, -6 * l, 6 * l,
+      (2 - f) * l2, -6 * l, (4 + f) * l2;
+  k *= ei / (l2 * l * (1 + f));
+  const double t1 = 70 * f2 + 147 * f + 78, t2 = (35 * f2 + 77 * f + 44) * l / 4, t3 = 35 * f2 + 63 * f + 27,
+               t4 = (35 * f2 + 63 * f + 26) * l / 4, t5 = (7 * f2 + 14 * f + 8) * l2 / 4,
+               t6 = (7 * f2 + 14 * f + 6) * l2 / 4;
+  mt << t1, t2, t3, -t4, t2, t5, t4, -t6, t3, t4, t1, -t2, -t4, -t6, -t2, t5;
+  mt *= beam.density_kg_per_m3 * area * l / (210 * (1 + f) * (1 + f));
+  const double r1 = (15 * f - 3) * l, r2 = (10 * f2 + 5 * f + 4) * l2, r3 = (5 * f2 - 5 * f - 1) * l2;
+  mr << 36, -r1, -36, -r1, -r1, r2, r1, r3, -36, r1, 36, r1, -r1, r3, r1, r2;
+  mr *= beam.density_kg_per_m3 * second / (30 * (1 + f) * (1 + f) * l);
+  const int size = 2 * elements + 2;
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(size, size), mass = stiffness;
+  for (int e = 0; e < elements; ++e) {
+    stiffness.block<4, 4>(2 * e, 2 * e) += k;
+    mass.block<4, 4>(2 * e, 2 * e) += mt + mr;
+  }
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(
+      stiffness.bottomRightCorner(size - 2, size - 2), mass.bottomRightCorner(size - 2, size - 2),
+      Eigen::EigenvaluesOnly);
+  return solver.eigenvalues().cwiseSqrt() / (2 * pi);
+}
+
+}  // namespace
+
+TEST_CASE("Timoshenko's cantilever against converged finite elements: five frequencies to 1e-6") {
+  for (BeamSegment beam : {BeamSegment{0.12, 0.03, 0, 200e9, 7800, 0.3, 0},
+                           BeamSegment{0.2, 0.04, 0.03, 580e9, 14500, 0.22, 0}}) {
+    const Eigen::VectorXd coarse = finite_element_frequencies(beam, 40),
+                          middle = finite_element_frequencies(beam, 80),
+                          fine = finite_element_frequencies(beam, 160);
+    for (int mode = 0; mode < 5; ++mode) {
+      // What is left of the error is a quarter of what halving took away, and a sixteenth after
+      // extrapolation.
+      const double first = middle[mode] + (middle[mode] - coarse[mode]) / 3;
+      const double second = fine[mode] + (fine[mode] - middle[mode]) / 3;
+      const double expected = second + (second - first) / 15;
+      CHECK(std::abs(second - first) < 1e-6 * expected);
+      // The dynamic stiffness of the tip, 1 / h, changes its sign at a natural frequency.
+      const auto stiffness = [&](double hz) {
+        return 1 / fixed_free_receptance(beam, BeamTheory::kTimoshenko, rad_per_s_from_hz(hz))(0, 0).real();
+      };
+      double low = expected * (1 - 1e-3), high = expected * (1 + 1e-3);
+      REQUIRE(stiffness(low) * stiffness(high) < 0);
+      for (int i = 0; i < 60; ++i) {
+        const double centre = 0.5 * (low + high);
+        (stiffness(centre) * stiffness(low) > 0 ? low : high) = centre;
+      }
+      CHECK(low == Approx(expected).epsilon(1e-6));
+    }
+  }
+}
+
 TEST_CASE("slender bars: Timoshenko tends to Euler and Bernoulli") {
   for (const double length : {500.0, 2000.0}) {
     // The difference falls with (d / length)^2.
