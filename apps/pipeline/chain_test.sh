@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The chains: a noisy tap test in, the verdicts of the noise-free table out; load samples in, the stiffest pose out.
+# The chains: a noisy tap test in, the verdicts of the noise-free table out; load samples in, the stiffest pose out; an assembly in,
+# its lobes out.
 . "$SOURCE/apps/testing.sh"
 table=$data/thesis-table-6-2.json
 lobes=(sdm-lobes --cut "$data/thesis-cut.json" --points "$data/thesis-table-6-3.csv" --speed 9000:9000:1 --depth 1:1:1)
@@ -20,3 +21,7 @@ joint-stiffness --robot "$robot" "$data/kr360-loads.csv" |
 check_jq "the stiffest pose from noisy samples, within three of its deviations" pose.json '.best |
   .score_std > 0 and (.score - 197.3 | fabs) < 3 * .score_std and (.joints_deg[1] + 130 | fabs) < 1e-6'
 check_jq "provenance of samples and robot" pose.json '[.provenance.inputs[] | .name, (.from // {} | .inputs // [] | .[].name)] | length == 4'
+
+rcsa-couple "$data/liu-assembly.json" | fit-modes --quiet | sdm-lobes --cut "$data/thesis-cut.json" --depth 0:0.2:8 --speed 9000:12000:4 -o tool.json
+check_jq "lobes of a tool that nobody tapped: it chatters at its first modes" tool.json '[.limit[].chatter_frequency_hz] | length == 4 and
+  all(. > 280 and . < 2100)'

@@ -42,7 +42,7 @@ for kind, schema in schemas.items():
     Draft202012Validator.check_schema(schema)
     constant = schema["properties"]["format"]["const"]
     check(f"{kind}: names itself", [] if constant == f"stablecut/{kind}/1" else [ValueError(constant)])
-    for tool in ("fit-modes", "sdm-lobes", "joint-stiffness", "best-pose"):
+    for tool in ("fit-modes", "sdm-lobes", "joint-stiffness", "best-pose", "rcsa-couple"):
         printed = run(tool, "--print-schema", kind)
         check(f"{tool} prints {kind}", [] if printed == schema else [ValueError("another schema")])
 
@@ -60,6 +60,8 @@ chart = ["--speed", "9000:12000:3", "--depth", "0:2:4"]
 documents = {
     "synthesized frf": tap,
     "fitted table": modes,
+    "coupled frf": run("rcsa-couple", "--slopes", str(source / "testdata/liu-assembly.json")),
+    "assembly": json.loads((source / "testdata/liu-assembly.json").read_text()),
     "lobes": run("sdm-lobes", "--cut", cut, *chart, "--per-mode", "--modes", "1,15", "--points",
                  str(source / "testdata/thesis-table-6-3.csv"), table),
     "lobes by sdm, limit only": run("sdm-lobes", "--cut", cut, *chart, "--method", "sdm", "--limit-only", table),
@@ -95,7 +97,7 @@ documents["stiffness where one load leaves joints unseen"] = run(
     "joint-stiffness", *robot, stdin=json.dumps(documents["load samples"]))
 required = {"frf": "h", "modal-table": "modes", "lobes": "limit", "robot": "tool", "load-samples": "samples",
             "joint-stiffness": "stiffness_n_m_per_rad", "pose-list": "poses", "measurement-plan": "samples", "pose": "index",
-            "pose-map": "score"}
+            "pose-map": "score", "assembly": "tool"}
 assert set(required) | {"cut"} == set(schemas), "a kind without an example"
 for name, document in documents.items():
     validate(name, document)

@@ -166,22 +166,24 @@ BeamReceptances free_free_receptances(const BeamSegment& segment, BeamTheory the
           mirror.asDiagonal() * sum * mirror.asDiagonal()};
 }
 
-Eigen::Matrix2cd fixed_free_receptance(const BeamSegment& segment, BeamTheory theory,
-                                       double omega_rad_per_s) {
+Eigen::Matrix2cd held_receptance(const BeamSegment& segment, BeamTheory theory, double omega_rad_per_s,
+                                 const Eigen::Matrix2cd& holder) {
   const Waves w = waves_of(segment, theory, omega_rad_per_s);
   if (series_suffice(w, segment.length_m)) {
-    // e2 and o3 - (a / c4) o1 neither move nor turn at x = 0.
+    // From end 2 at x = 0 with the force V0 and moment M0 that the holder takes there: w0, psi0 = H (V0, M0),
+    // and the solution is w0 e0 + M0/EI e2 + (psi0 + a V0 / (rho A w^2)) o1 - (V0/EI + b psi0) o3.
     const Series s = series_at(w, segment.length_m);
     const Pair even = even_by_series(w, s), odd = odd_by_series(w, s);
-    const Complex share = w.a / w.c4;
-    Pair pair;
-    pair.movement << even.movement.col(1), odd.movement.col(1) - share * odd.movement.col(0);
-    pair.load << even.load.col(1), odd.load.col(1) - share * odd.load.col(0);
-    return receptance(pair);
+    Eigen::Matrix2cd of_even, of_odd;  // coefficients per V0 and M0
+    of_even << holder(0, 0), holder(0, 1), 0, 1.0 / w.bending;
+    of_odd << holder(1, 0) + w.a / w.inertia, holder(1, 1), -1.0 / w.bending - w.b * holder(1, 0),
+        -w.b * holder(1, 1);
+    return receptance(
+        {even.movement * of_even + odd.movement * of_odd, even.load * of_even + odd.load * of_odd});
   }
-  // With waves on it the free segment is no rigid body any more, and blocking its end cancels nothing.
+  // With waves on it the free segment is no rigid body any more, and holding its end cancels nothing.
   const BeamReceptances r = free_free_receptances(segment, theory, omega_rad_per_s);
-  return r.r11 - r.r12 * r.r22.inverse() * r.r21;
+  return r.r11 - r.r12 * (r.r22 + holder).inverse() * r.r21;
 }
 
 }  // namespace stablecut

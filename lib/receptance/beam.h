@@ -34,7 +34,16 @@ double cowper_shear_coefficient(double inner_over_outer_diameter, double poisson
 /// rigid body to many waves. Throws InvalidArgument for sizes or frequencies that are not above 0.
 BeamReceptances free_free_receptances(const BeamSegment& segment, BeamTheory theory, double omega_rad_per_s);
 
+/// The receptance at end 1 of a segment whose end 2 is held by a part of receptance `holder` (zero: fixed).
+/// Where the segment is short for its waves this does not pass through the segment's own rigid body, and so
+/// does not cancel.
+Eigen::Matrix2cd held_receptance(const BeamSegment& segment, BeamTheory theory, double omega_rad_per_s,
+                                 const Eigen::Matrix2cd& holder);
+
 /// A segment fixed at its end 2, at its end 1.
-Eigen::Matrix2cd fixed_free_receptance(const BeamSegment& segment, BeamTheory theory, double omega_rad_per_s);
+inline Eigen::Matrix2cd fixed_free_receptance(const BeamSegment& segment, BeamTheory theory,
+                                              double omega_rad_per_s) {
+  return held_receptance(segment, theory, omega_rad_per_s, Eigen::Matrix2cd::Zero());
+}
 
 }  // namespace stablecut

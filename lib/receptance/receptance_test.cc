@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "receptance/assembly.h"
 #include "receptance/beam.h"
 #include "receptance/coupling.h"
 
@@ -50,6 +51,36 @@ TEST_CASE("stub and bar joined rigidly are the cantilever, in all four receptanc
     }
     CHECK(worst_low < 1e-9);
     CHECK(worst < 1e-10);
+  }
+}
+
+TEST_CASE("a cantilever of short held segments is the cantilever, from 1 Hz on") {
+  for (const BeamTheory theory : kBoth) {
+    double worst = 0;
+    for (double f = 1; f <= 20000; f *= 1.03) {
+      const double omega = rad_per_s_from_hz(f);
+      const HeldTool held{{bar(10), bar(2), bar(38.90)}, true, {}};
+      const Eigen::Matrix2cd tip = tip_receptance({bar(60), bar(3), bar(55.92)}, held, theory, omega);
+      worst = std::max(worst, relative(tip, fixed_free_receptance(bar(169.82), theory, omega)));
+    }
+    CHECK(worst < 1e-11);
+  }
+}
+
+TEST_CASE("held through a joint, outwards from the holder or by coupling: the same tip") {
+  const ToolJoint joint{5e7, 200, 5e4, 0.5};
+  for (const BeamTheory theory : kBoth) {
+    for (const bool fixed : {true, false}) {
+      for (const double f : {50.0, 800.0, 5000.0}) {
+        const double omega = rad_per_s_from_hz(f);
+        const Eigen::Matrix2cd holder = fixed ? fixed_free_receptance(bar(50.90), theory, omega)
+                                              : free_free_receptances(bar(50.90), theory, omega).r11;
+        const Eigen::Matrix2cd coupled =
+            coupled_tip(free_free_receptances(bar(118.92), theory, omega), holder, joint.receptance(omega));
+        CHECK(relative(tip_receptance({bar(118.92)}, {{bar(50.90)}, fixed, joint}, theory, omega), coupled) <
+              1e-9);
+      }
+    }
   }
 }
 

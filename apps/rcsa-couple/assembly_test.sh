@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# rcsa-couple: the published example, exact limits, directions, bad input.
+. "$SOURCE/apps/testing.sh"
+assembly=$data/liu-assembly.json
+same_for_every_tool rcsa-couple frf
+
+rcsa-couple "$assembly" -o joint.json
+jq '.joint = "rigid"' "$assembly" | rcsa-couple -o rigid.json
+jq '.joint = "rigid" | .tool.segments[0].length_mm = 100 | .holder.segments = [.holder.segments[0] | .length_mm = 18.92, .length_mm = 50.9]' "$assembly" |
+  rcsa-couple -o parts.json
+size='def size: [.h[0].re, .h[0].im] | transpose | map(map(. * .) | add | sqrt); def peak(lo; hi): .frequency_hz as $f | size as $s
+  | [range($f | length) | select($f[.] >= lo and $f[.] <= hi)] | max_by($s[.]) | $f[.];'
+check_jq "four entries, zeros across" joint.json '[.h[] | .response + .reference] == ["xx", "xy", "yx", "yy"] and (.h[1].re | all(. == 0)) and .h[0].re == .h[3].re'
+check_jq "peaks with the joint" joint.json "$size peak(200; 500) == 294 and (peak(1500; 2500) - 1830 | fabs) <= 1"
+check_jq "peaks without it" rigid.json "$size peak(200; 500) == 295 and (peak(1500; 2500) - 1848 | fabs) <= 1"
+check_jq "the paper's objective" joint.json "$size [size, (\$rigid[0] | size)] | transpose | map(.[0] - .[1] | . * .) | add | sqrt | (. / 6.82e-5 - 1 | fabs) < 1e-3" --slurpfile rigid rigid.json
+check_jq "however it is cut in parts" parts.json "$size [.h[0].re, (\$rigid[0] | .h[0].re, size)] | transpose | all((.[0] - .[1] | fabs) <= 1e-9 * .[2])" --slurpfile rigid rigid.json
+rcsa-couple "$assembly" --slopes -o slopes.json
+check_jq "slopes, reciprocal" slopes.json '(.h | length) == 16 and ([.h[] | select(.response == "x" and .reference == "slope_x")][0].re as $a
+  | [.h[] | select(.response == "slope_x" and .reference == "x")][0].re as $b | [$a, $b] | transpose | all((.[0] - .[1] | fabs) <= 1e-9 * (.[0] | fabs)))'
+jq '.joint = {x: "rigid", y: .joint} | .holder = {x: .holder, y: (.holder | .end = "free")}' "$assembly" | rcsa-couple -o apart.json
+check_jq "x and y apart" apart.json '.h[0].re == $rigid[0].h[0].re and .h[3].re != $rigid[0].h[3].re' --slurpfile rigid rigid.json
+rcsa-couple --threads 1 "$assembly" >one.json
+rcsa-couple --threads 2 "$assembly" >two.json
+check "same bytes on one and two threads" cmp -s one.json two.json
+
+with() {
+  jq "$1" "$assembly" >bad.json
+  refused 65 "^rcsa-couple: bad.json: $2" rcsa-couple bad.json -o result.json
+}
+with '.tool.segments = []' '/tool/segments: a list of 0: expected'
+with '.tool.segments[0].material = "wood"' '/tool/segments/0/material: "wood": expected one of /materials'
+with '.tool.segments[0].length_mm = 0' '/tool/segments/0/length_mm: 0: expected a size above 0'
+with '.tool.segments[0].inner_diameter_mm = 12' '/tool/segments/0/inner_diameter_mm: 12: expected less than'
+with '.tool.segments[0].length_m = 1' '/tool/segments/0/length_m: unknown field: expected length_mm'
+with '.materials.steel.poisson_ratio = 0.6' '/materials/steel/poisson_ratio: 0.6: expected'
+with '.beam_theory = "rayleigh"' '/beam_theory: "rayleigh": expected "timoshenko" or "euler-bernoulli"'
+with '.holder.end = "pinned"' '/holder/end: "pinned": expected "fixed" or "free"'
+with '.holder = {modal_table: {}}' '/holder/modal_table: .*this version computes holders of beams only'
+with '.holder = {x: .holder}' '/holder/y: missing'
+with '.joint = "glued"' '/joint: "glued": expected "rigid"'
+with '.joint.k1_n_per_m = -1' '/joint/k1_n_per_m: -1: expected a number above 0'
+with '.frequency_hz.from = 0' '/frequency_hz/from: 0: expected a number above 0'
+with '.frequency_hz = [3, 2]' '/frequency_hz/1: 2: expected increasing'
+with '.format = "stablecut/frf/1"' '/format: .*expected "stablecut/assembly/1"'
+check "nothing was written" test ! -e result.json
