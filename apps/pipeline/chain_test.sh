@@ -23,5 +23,5 @@ check_jq "the stiffest pose from noisy samples, within three of its deviations" 
 check_jq "provenance of samples and robot" pose.json '[.provenance.inputs[] | .name, (.from // {} | .inputs // [] | .[].name)] | length == 4'
 
 rcsa-couple "$data/liu-assembly.json" | fit-modes --quiet | sdm-lobes --cut "$data/thesis-cut.json" --depth 0:0.2:8 --speed 9000:12000:4 -o tool.json
-check_jq "lobes of a tool that nobody tapped: it chatters at its first modes" tool.json '[.limit[].chatter_frequency_hz] | length == 4 and
-  all(. > 280 and . < 2100)'
+check_jq "lobes of a tool that nobody tapped: it chatters at its first mode, 294 Hz" tool.json '
+  [.limit[] | select(.depth_mm) | .chatter_frequency_hz] | length >= 2 and all(. > 285 and . < 300)'
