@@ -44,9 +44,7 @@ class BestPose : public cli::Tool {
   void setup(CLI::App& app) override {
     const auto not_negative = [](double value) { return value >= 0; };
     const auto any = [](double) { return true; };
-    not_in_provenance(
-        app.add_option("--robot", robot_path_, "Robot document: kinematics, flange, tool (required)")
-            ->type_name("FILE"));
+    add_file_option(app, "--robot", robot_path_, "Robot document: kinematics, flange, tool (required)");
     cli::add_number_option(app, "--height", height_mm_, "The plane: z = HEIGHT, mm, base frame", "a number",
                            any);
     cli::add_vector_option(app, "--plane-origin", plane_origin_, "Or any plane: its origin, mm, base frame");
@@ -75,18 +73,12 @@ class BestPose : public cli::Tool {
                            "a number not below 0", not_negative);
     cli::add_integer_option(app, "--alternatives", alternatives_, 0,
                             "How many runners-up to list (default: 5)");
-    app.add_option_function<std::vector<std::string>>(
-           "--assume", [this](const std::vector<std::string>& texts) { assume(texts); },
-           "Stiffness of a joint that was not identified, N m/rad, as in A1=6.9e6; may be given again")
-        ->type_name("JOINT=K")
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->allow_extra_args(false);
-    not_in_provenance(
-        app.add_option("--map", map_path_, "Also write the best of the samples at each point of the plane")
-            ->type_name("FILE"));
-    not_in_provenance(
-        app.add_option("--evaluate", evaluate_path_, "Score the poses of a pose list instead of a search")
-            ->type_name("FILE"));
+    cli::add_repeated_option(
+        app, "--assume", "JOINT=K",
+        "Stiffness of a joint that was not identified, N m/rad, as in A1=6.9e6; may be given again",
+        [this](const std::string& text) { assume(text); });
+    add_file_option(app, "--map", map_path_, "Also write the best of the samples at each point of the plane");
+    add_file_option(app, "--evaluate", evaluate_path_, "Score the poses of a pose list instead of a search");
   }
 
   void run() override {
@@ -115,15 +107,13 @@ class BestPose : public cli::Tool {
 
   static cli::Failure usage(const std::string& text) { return {cli::ExitStatus::kUsage, text}; }
 
-  void assume(const std::vector<std::string>& texts) {
-    for (const std::string& text : texts) {
-      const auto equals = text.find('=');
-      const auto value = equals == std::string::npos ? std::nullopt : parse_number(text.substr(equals + 1));
-      if (!value || !(*value > 0) || equals == 0) {
-        throw CLI::ValidationError("--assume", text + ": expected JOINT=K with a stiffness above 0 N m/rad");
-      }
-      assumed_.emplace_back(text.substr(0, equals), *value);
+  void assume(const std::string& text) {
+    const auto equals = text.find('=');
+    const auto value = equals == std::string::npos ? std::nullopt : parse_number(text.substr(equals + 1));
+    if (!value || !(*value > 0) || equals == 0) {
+      throw CLI::ValidationError("--assume", text + ": expected JOINT=K with a stiffness above 0 N m/rad");
     }
+    assumed_.emplace_back(text.substr(0, equals), *value);
   }
 
   StiffnessTask stiffness_task() const {
@@ -229,11 +219,8 @@ class BestPose : public cli::Tool {
     task.limit_margin_rad = radians_from_degrees(limit_margin_deg_.value_or(kDefaultLimitMarginDeg));
     task.singularity_margin = singularity_margin_.value_or(kDefaultSingularityMargin);
     const auto reach = plane_reach(robot, task.plane, task.tool_axis);
-    if (!reach && (!x_ || !y_)) {
-      throw NoAnswer("no reachable pose: nothing of the plane is within the arm's reach with this tool axis");
-    }
-    task.x = span(x_, reach ? reach->x : Range{});
-    task.y = span(y_, reach ? reach->y : Range{});
+    task.x = span(x_, reach.x);
+    task.y = span(y_, reach.y);
     if (static_cast<double>(task.x.count) * task.y.count > kMostPoints) {
       throw usage("--x, --y: expected at most " + std::to_string(kMostPoints) + " points");
     }
@@ -277,21 +264,9 @@ class BestPose : public cli::Tool {
     };
     report(document.search.best);
     for (const FoundPose& found : document.search.alternatives) report(found);
-    sweep_redundancy(robot, task, document);
+    document.sweep = redundancy_sweep(robot, task, document.search.best.at.x, document.search.best.at.y);
     write_document(main_output(), pose_to_json(document, robot));
     if (scan) write_document(map_path_, pose_map_to_json(pose_map(robot, *scan), task, plane));
-  }
-
-  // The score over the redundancy at the best point.
-  static void sweep_redundancy(const Robot& robot, const PoseTask& task, PoseDocument& document) {
-    for (int i = 0; i < task.redundancy.count; ++i) {
-      PoseTask one = task;
-      one.redundancy = {task.redundancy.at(i), task.redundancy.at(i), 1};
-      const PoseScanner scanner(robot, one);
-      const auto best = scanner.scan(document.search.best.at.x, document.search.best.at.y).best();
-      document.sweep.redundancy_rad.push_back(one.redundancy.from);
-      document.sweep.score.push_back(best ? std::optional(scanner.evaluate(best->at)->score) : std::nullopt);
-    }
   }
 
   void score_poses(const Robot& robot, const JointAngles& compliance, PoseDocument& document) {

@@ -44,9 +44,8 @@ class FitModes : public cli::Tool {
            },
            "Number of modes (default: auto)")
         ->type_name("auto|N");
-    not_in_provenance(
-        app.add_option("--fitted", fitted_path_, "Also write the fitted model on the measured lines, an frf")
-            ->type_name("FILE"));
+    add_file_option(app, "--fitted", fitted_path_,
+                    "Also write the fitted model on the measured lines, an frf");
     fit_options_ = {app.get_option("--from"), app.get_option("--quantity"), app.get_option("--band"),
                     app.get_option("--modes"), app.get_option("--fitted")};
 

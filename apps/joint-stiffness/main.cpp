@@ -37,9 +37,7 @@ class JointStiffnessTool : public cli::Tool {
   using Vector = std::optional<std::array<double, 3>>;
 
   void setup(CLI::App& app) override {
-    not_in_provenance(
-        app.add_option("--robot", robot_path_, "Robot document: kinematics, flange, tool (required)")
-            ->type_name("FILE"));
+    add_file_option(app, "--robot", robot_path_, "Robot document: kinematics, flange, tool (required)");
     cli::add_choice_option(app, "--from", from_, "json|csv", "Form of the input (default: by content)");
     cli::add_choice_option(app, "--loss", loss_, "squared|huber",
                            "squared (default), or huber: samples far off count less and are named");
@@ -59,20 +57,14 @@ class JointStiffnessTool : public cli::Tool {
         ->type_name("xyz");
     cli::add_integer_option(app, "--plan", plan_, 1,
                             "Read a pose list and choose the N poses and loads that identify best");
-    app.add_option_function<std::vector<std::string>>(
-           "--load",
-           [this](const std::vector<std::string>& texts) {
-             for (const std::string& text : texts) {
-               const auto load = parse_vector(text);
-               if (!load) throw CLI::ValidationError("--load", text + ": expected X,Y,Z, three numbers");
-               loads_.push_back(*load);
-             }
-           },
-           "A force that a plan may use at the tool point, N, base frame; may be given again (default: 600 "
-           "along x, y, -z)")
-        ->type_name("X,Y,Z")
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->allow_extra_args(false);
+    cli::add_repeated_option(
+        app, "--load", "X,Y,Z",
+        "A force that a plan may use, N, base frame; may be given again (default: 600 along x, y, -z)",
+        [this](const std::string& text) {
+          const auto load = parse_vector(text);
+          if (!load) throw CLI::ValidationError("--load", text + ": expected X,Y,Z, three numbers");
+          loads_.push_back(*load);
+        });
     const auto positive = [](double value) { return value > 0; };
     cli::add_number_option(app, "--std-mm", std_mm_,
                            "Deviation of a measured component, for a plan (default: 0.005)",
@@ -81,9 +73,8 @@ class JointStiffnessTool : public cli::Tool {
                            "Where a plan's loads act, mm, flange frame (default: the tool point)");
     cli::add_vector_option(app, "--measuring-point", measuring_point_mm_,
                            "Whose displacement a plan measures, mm, flange frame (default: the tool point)");
-    not_in_provenance(app.add_option("--expected", expected_path_,
-                                     "Expected joint stiffness, for a plan's deviations in N m/rad")
-                          ->type_name("FILE"));
+    add_file_option(app, "--expected", expected_path_,
+                    "Expected joint stiffness, for a plan's deviations in N m/rad");
   }
 
   void run() override {

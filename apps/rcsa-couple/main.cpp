@@ -35,9 +35,11 @@ class RcsaCouple : public cli::Tool {
           lines, threads(),
           [&](std::size_t i) {
             const double omega = rad_per_s_from_hz(assembly.frequency_hz[static_cast<Eigen::Index>(i)]);
-            for (std::size_t d = 0; d < 2; ++d) {
-              tip[i][d] = tip_receptance(assembly.tool, assembly.held[d], assembly.theory, omega);
-            }
+            const auto in_direction = [&](std::size_t d) {
+              return tip_receptance(assembly.tool, assembly.held[d], assembly.theory, omega);
+            };
+            tip[i][0] = in_direction(0);
+            tip[i][1] = assembly.axisymmetric ? tip[i][0] : in_direction(1);
           },
           [&](double share) { bar.show(share); });
     }

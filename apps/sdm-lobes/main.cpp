@@ -36,9 +36,7 @@ class SdmLobes : public cli::Tool {
   void setup(CLI::App& app) override {
     const auto positive = [](double value) { return value > 0; };
     const auto not_negative = [](double value) { return value >= 0; };
-    not_in_provenance(
-        app.add_option("--cut", cut_path_, "Cut document: cutter, coefficients, engagement, chart")
-            ->type_name("FILE"));
+    add_file_option(app, "--cut", cut_path_, "Cut document: cutter, coefficients, engagement, chart");
     cut_options_ = {
         cli::add_integer_option(app, "--teeth", teeth_, 1, "Number of teeth"),
         cli::add_number_option(app, "--kt", kt_, "Tangential cutting coefficient, N/mm2", "a number above 0",
@@ -66,9 +64,8 @@ class SdmLobes : public cli::Tool {
            "Use only these modes of the table, such as 1-7,14-15")
         ->type_name("LIST");
     app.add_flag("--per-mode", per_mode_, "Also the limit of each mode alone");
-    not_in_provenance(app.add_option("--points", points_path_,
-                                     "Tested cuts to judge: CSV or JSON with depth_mm, speed_rpm[, observed]")
-                          ->type_name("FILE"));
+    add_file_option(app, "--points", points_path_,
+                    "Tested cuts to judge: CSV or JSON with depth_mm, speed_rpm[, observed]");
     app.add_flag("--limit-only", limit_only_, "No grid of spectral radii, only the limit");
   }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/units.h"
+
 using namespace stablecut;
 
 TEST_CASE("quantiles of Student's t as in printed tables") {
@@ -21,7 +23,7 @@ TEST_CASE("quantiles of Student's t as in printed tables") {
 TEST_CASE("closed forms of the distributions") {
   // t with 1 and 2 degrees of freedom; chi-square with 2 is exponential.
   for (const double x : {-3.0, -0.4, 0.0, 0.7, 12.0}) {
-    CHECK(student_t_cdf(x, 1) == Approx(0.5 + std::atan(x) / M_PI).margin(1e-13));
+    CHECK(student_t_cdf(x, 1) == Approx(0.5 + std::atan(x) / kPi).margin(1e-13));
     CHECK(student_t_cdf(x, 2) == Approx(0.5 + x / (2 * std::sqrt(2 + x * x))).margin(1e-13));
   }
   for (const double x : {0.1, 1.0, 5.0, 40.0})

@@ -62,6 +62,21 @@ CLI::Option* add_vector_option(CLI::App& app, const std::string& name,
   return add_parsed_option(app, name, value, description, "X,Y,Z", "X,Y,Z, three numbers", parse_vector);
 }
 
+CLI::Option* add_repeated_option(CLI::App& app, const std::string& name, const std::string& type_name,
+                                 const std::string& description,
+                                 const std::function<void(const std::string&)>& take) {
+  return app
+      .add_option_function<std::vector<std::string>>(
+          name,
+          [take](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) take(text);
+          },
+          description)
+      ->type_name(type_name)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
+}
+
 CLI::Option* add_number_option(CLI::App& app, const std::string& name, std::optional<double>& value,
                                const std::string& description, const std::string& expected,
                                bool (*inside)(double)) {
@@ -100,6 +115,13 @@ CLI::Option* add_choice_option(CLI::App& app, const std::string& name, std::stri
 
 Tool::Tool(std::string name, std::string purpose, std::string main_kind)
     : name_(std::move(name)), main_kind_(std::move(main_kind)), app_(std::move(purpose), name_) {}
+
+CLI::Option* Tool::add_file_option(CLI::App& app, const std::string& name, std::string& path,
+                                   const std::string& description) {
+  CLI::Option* option = app.add_option(name, path, description)->type_name("FILE");
+  not_in_provenance(option);
+  return option;
+}
 
 Input Tool::read_input(const std::string& path, bool must_be_json) {
   if (path == "-") {
@@ -149,9 +171,7 @@ int Tool::parse(int argc, char** argv) {
   app_.set_help_flag("-h,--help", "Print this help and exit");
   app_.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::Throw);
   app_.add_option("INPUT", input_, "Input file, - for standard input")->capture_default_str();
-  not_in_provenance(app_.add_option("-o,--output", output_, "Output file, - for standard output")
-                        ->type_name("FILE")
-                        ->capture_default_str());
+  add_file_option(app_, "-o,--output", output_, "Output file, - for standard output")->capture_default_str();
   setup(app_);
   not_in_provenance(app_.add_flag("--quiet", quiet_, "No warnings, no progress bar"));
   const unsigned cores = std::max(1u, std::thread::hardware_concurrency());

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,6 +54,10 @@ class Tool {
   /// stays out of the provenance.
   void not_in_provenance(const CLI::Option* option) { silent_options_.push_back(option); }
 
+  /// An option whose value is a file's path; not in the provenance, which names inputs by themselves.
+  CLI::Option* add_file_option(CLI::App& app, const std::string& name, std::string& path,
+                               const std::string& description);
+
  private:
   int parse(int argc, char** argv);
   std::vector<std::string> result_arguments() const;
@@ -87,6 +92,10 @@ CLI::Option* add_number_option(CLI::App& app, const std::string& name, std::opti
 /// An option whose text must be X,Y,Z.
 CLI::Option* add_vector_option(CLI::App& app, const std::string& name,
                                std::optional<std::array<double, 3>>& value, const std::string& description);
+/// An option that may be given again: `take` gets each text, and throws CLI::ValidationError for a wrong one.
+CLI::Option* add_repeated_option(CLI::App& app, const std::string& name, const std::string& type_name,
+                                 const std::string& description,
+                                 const std::function<void(const std::string&)>& take);
 /// An option whose text must be a whole number from `least` on.
 CLI::Option* add_integer_option(CLI::App& app, const std::string& name, std::optional<int>& value, int least,
                                 const std::string& description);

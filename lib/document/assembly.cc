@@ -97,11 +97,12 @@ void read_joint(const Node& node, HeldTool& held) {
 
 // A value for both directions, or {"x": ..., "y": ...}.
 template <typename Read>
-void in_each_direction(const Node& node, const Read& read) {
+void in_each_direction(const Node& node, AssemblyDocument& assembly, const Read& read) {
   const bool apart = node.has("x") || node.has("y");
+  assembly.axisymmetric = assembly.axisymmetric && !apart;
   if (apart) node.check_names({"x", "y"});
-  read(apart ? node.at("x") : node, 0);
-  read(apart ? node.at("y") : node, 1);
+  read(apart ? node.at("x") : node, assembly.held[0]);
+  read(apart ? node.at("y") : node, assembly.held[1]);
 }
 
 }  // namespace
@@ -118,10 +119,9 @@ AssemblyDocument assembly_from_json(const Json& document, const Source& source) 
   const Node tool = root.at("tool");
   tool.check_names({"segments"});
   assembly.tool = segments_from(tool.at("segments"), materials);
-  in_each_direction(root.at("holder"),
-                    [&](const Node& node, std::size_t d) { read_holder(node, materials, assembly.held[d]); });
-  in_each_direction(root.at("joint"),
-                    [&](const Node& node, std::size_t d) { read_joint(node, assembly.held[d]); });
+  in_each_direction(root.at("holder"), assembly,
+                    [&](const Node& node, HeldTool& held) { read_holder(node, materials, held); });
+  in_each_direction(root.at("joint"), assembly, read_joint);
   return assembly;
 }
 

@@ -14,6 +14,7 @@ struct AssemblyDocument {
   BeamTheory theory = BeamTheory::kTimoshenko;
   std::vector<BeamSegment> tool;
   std::array<HeldTool, 2> held;  ///< in x and in y
+  bool axisymmetric = true;      ///< the same in both
 };
 
 /// Throws DataError; also for what is valid in the format but not computed: a holder by modes or by

@@ -112,6 +112,12 @@ const std::vector<Known>& known_columns() {
   return kKnown;
 }
 
+const std::vector<std::pair<std::string, double>>& units_of(Quantity quantity) {
+  const auto& known = known_columns();
+  return std::find_if(known.begin(), known.end(), [&](const Known& k) { return k.quantity == quantity; })
+      ->units;
+}
+
 std::optional<double> factor(const std::vector<std::pair<std::string, double>>& units,
                              const std::string& unit) {
   if (unit.empty()) return units.front().second;
@@ -142,9 +148,9 @@ std::optional<Column> column_of(const std::string& header, const Robot& robot, b
     }
   }
   if (name == "std") {
-    const bool rotation = factor(known_columns()[3].units, unit).has_value() && !unit.empty();
-    return with_unit(rotation ? Quantity::kStdRotation : Quantity::kStd, 0,
-                     known_columns()[rotation ? 3 : 2].units);
+    const bool rotation = !unit.empty() && factor(units_of(Quantity::kRotation), unit);
+    return rotation ? with_unit(Quantity::kStdRotation, 0, units_of(Quantity::kRotation))
+                    : with_unit(Quantity::kStd, 0, units_of(Quantity::kDeflection));
   }
   if (name.empty()) return std::nullopt;
   const auto component = std::string("xyz").find(name.back());

@@ -14,6 +14,21 @@ double in_score_unit(double score, StiffnessIndex index) {
   return index == StiffnessIndex::kDeflection ? score * 1e6 : score;
 }
 
+// The index's name and the unit of its score.
+Json index_to_json(StiffnessIndex index) {
+  switch (index) {
+    case StiffnessIndex::kCombined:
+      return {{"name", "combined"}, {"unit", "N/m"}};
+    case StiffnessIndex::kWeakest:
+      return {{"name", "weakest"}, {"unit", "N/m"}};
+    case StiffnessIndex::kAxial:
+      return {{"name", "axial"}, {"unit", "N/m"}};
+    case StiffnessIndex::kDeflection:
+      break;
+  }
+  return {{"name", "deflection"}, {"unit", "um"}};
+}
+
 Json to_json(const Eigen::Vector3d& v) { return Json::array({v[0], v[1], v[2]}); }
 
 Json to_json(const PoseReport& report, const StiffnessTask& task) {
@@ -90,20 +105,6 @@ Json samples_of(const Range& range) {
 }
 
 }  // namespace
-
-Json index_to_json(StiffnessIndex index) {
-  switch (index) {
-    case StiffnessIndex::kCombined:
-      return {{"name", "combined"}, {"unit", "N/m"}};
-    case StiffnessIndex::kWeakest:
-      return {{"name", "weakest"}, {"unit", "N/m"}};
-    case StiffnessIndex::kAxial:
-      return {{"name", "axial"}, {"unit", "N/m"}};
-    case StiffnessIndex::kDeflection:
-      break;
-  }
-  return {{"name", "deflection"}, {"unit", "um"}};
-}
 
 Json pose_to_json(const PoseDocument& document, const Robot& robot) {
   Json result = {{"format", "stablecut/pose/1"}, {"index", index_to_json(document.task.index)}};

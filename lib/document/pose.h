@@ -10,9 +10,6 @@
 
 namespace stablecut {
 
-/// The index's name and the unit of its score.
-Json index_to_json(StiffnessIndex index);
-
 /// The plane as the user gave it.
 struct PlaneDocument {
   std::optional<double> height_mm;
@@ -26,10 +23,7 @@ struct PoseDocument {
   PlaneDocument plane;
   PoseSearch search;
   std::vector<PoseReport> reports;  ///< best, then the alternatives
-  struct Sweep {
-    std::vector<double> redundancy_rad;
-    std::vector<std::optional<double>> score;  ///< of the best branch there, none where nothing is allowed
-  } sweep;                                     ///< over the redundancy at the best point
+  RedundancySweep sweep;            ///< at the best point
   // An evaluation.
   std::vector<PoseReport> evaluated;
 };

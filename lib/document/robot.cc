@@ -59,7 +59,7 @@ Robot robot_from_json(const Json& document, const Source& source) {
   root.check_names({"format", "name", "convention", "joints", "flange", "tool", "provenance"});
   root.at("convention").word({"modified-dh"});
   Robot robot;
-  if (const auto name = root.find("name")) robot.name = name->text();
+  if (const auto name = root.find("name")) name->text();
   const Node joints = root.at("joints");
   const auto items = joints.items();
   if (items.size() != kJoints) joints.fail("expected 6 joints");

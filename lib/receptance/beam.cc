@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "receptance/coupling.h"
 
 namespace stablecut {
 namespace {
@@ -182,8 +183,7 @@ Eigen::Matrix2cd held_receptance(const BeamSegment& segment, BeamTheory theory, 
         {even.movement * of_even + odd.movement * of_odd, even.load * of_even + odd.load * of_odd});
   }
   // With waves on it the free segment is no rigid body any more, and holding its end cancels nothing.
-  const BeamReceptances r = free_free_receptances(segment, theory, omega_rad_per_s);
-  return r.r11 - r.r12 * (r.r22 + holder).inverse() * r.r21;
+  return coupled_tip(free_free_receptances(segment, theory, omega_rad_per_s), holder);
 }
 
 }  // namespace stablecut

@@ -76,26 +76,10 @@ TEST_CASE("held through a joint, outwards from the holder or by coupling: the sa
         const Eigen::Matrix2cd holder = fixed ? fixed_free_receptance(bar(50.90), theory, omega)
                                               : free_free_receptances(bar(50.90), theory, omega).r11;
         const Eigen::Matrix2cd coupled =
-            coupled_tip(free_free_receptances(bar(118.92), theory, omega), holder, joint.receptance(omega));
+            coupled_tip(free_free_receptances(bar(118.92), theory, omega), holder + joint.receptance(omega));
         CHECK(relative(tip_receptance({bar(118.92)}, {{bar(50.90)}, fixed, joint}, theory, omega), coupled) <
               1e-9);
       }
-    }
-  }
-}
-
-TEST_CASE("a bar of many segments is the bar") {
-  for (const BeamTheory theory : kBoth) {
-    for (const double f : {20.0, 300.0, 4000.0, 20000.0}) {
-      const double omega = rad_per_s_from_hz(f);
-      BeamReceptances sum = free_free_receptances(bar(50), theory, omega);
-      for (const double length : {30.0, 5.0, 85.0})
-        sum = joined(sum, free_free_receptances(bar(length), theory, omega));
-      const BeamReceptances whole = free_free_receptances(bar(170), theory, omega);
-      CHECK(relative(sum.r11, whole.r11) < 1e-9);
-      CHECK(relative(sum.r12, whole.r12) < 1e-9);
-      CHECK(relative(sum.r21, whole.r21) < 1e-9);
-      CHECK(relative(sum.r22, whole.r22) < 1e-9);
     }
   }
 }
@@ -166,9 +150,9 @@ TEST_CASE(
         Approx(3825).margin(1));
   const auto tip = [&](double w, bool with_joint) {
     const ToolJoint joint{97062227, 18.633, 95978423, 10.399};
-    return coupled_tip(free_free_receptances(bar(118.92), theory, w),
-                       fixed_free_receptance(bar(50.90), theory, w),
-                       with_joint ? std::optional(joint.receptance(w)) : std::nullopt);
+    Eigen::Matrix2cd held = fixed_free_receptance(bar(50.90), theory, w);
+    if (with_joint) held += joint.receptance(w);
+    return coupled_tip(free_free_receptances(bar(118.92), theory, w), held);
   };
   CHECK(peak_hz(280, 310, [&](double w) { return tip(w, false); }) == Approx(295).margin(0.6));
   CHECK(peak_hz(1800, 1900, [&](double w) { return tip(w, false); }) == Approx(1848).margin(0.6));

@@ -4,6 +4,8 @@
 #include <cstring>
 #include <limits>
 
+#include "base/units.h"
+
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #define STABLECUT_WIDE __attribute__((target_clones("avx2", "default")))
 #else
@@ -18,8 +20,6 @@ namespace {
 // 128.
 typedef double Lanes __attribute__((vector_size(kArms * sizeof(double))));
 
-constexpr double kPi = 3.141592653589793238;
-constexpr double kTurn = 2 * kPi;
 constexpr double kReachTolerance = 1e-12;  // relative
 constexpr double kFreeRadius = 1e-10;      // m: nearer to axis 1 than this, joint 1 is free
 constexpr double kFreeSine = 1e-11;        // axes 4 and 6 nearer in line than this: joint 4 is free
@@ -69,7 +69,7 @@ STABLECUT_INLINE Lanes nearest_whole(const Lanes& value) {
 // theta -> the controller angle nearest the middle of the range.
 STABLECUT_INLINE Lanes controller_angle(const ArmConstants& robot, int joint, const Lanes& theta) {
   const Lanes angle = robot.sign[joint] * (theta - robot.offset[joint]);
-  return angle + kTurn * nearest_whole((robot.middle[joint] - angle) * (1 / kTurn));
+  return angle + kTwoPi * nearest_whole((robot.middle[joint] - angle) * (1 / kTwoPi));
 }
 
 STABLECUT_INLINE Lanes joint_margin(const ArmConstants& robot, int joint, const Lanes& angle) {

@@ -24,9 +24,8 @@ struct Identifiability {
 };
 
 /// A joint is unseen when its column is below 1e-3 of what it would be with load and measurement square to
-/// its lever
-/// (`largest`): that much comes from misalignment and is no measurement. Columns are dependent below 1e-6 of
-/// the largest singular value of the scaled columns.
+/// its lever (`largest`): that much comes from misalignment and is no measurement. Columns are dependent
+/// below 1e-6 of the largest singular value of the scaled columns.
 Identifiability identifiability(const Eigen::MatrixXd& a, const Eigen::MatrixXd& largest);
 
 }  // namespace stablecut

@@ -1,10 +1,10 @@
 #include "robot/identification.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "base/statistics.h"
@@ -187,7 +187,6 @@ class Fit {
 
   void report(Identification& result) {
     result.rank = seen_.rank;
-    result.condition_number = seen_.condition_number;
     result.low.fill(std::numeric_limits<double>::quiet_NaN());
     result.high = result.low;
     const auto n = a_.cols();
@@ -205,6 +204,7 @@ class Fit {
       }
     }
     if (n == 0) return;
+    // With the deviations that rotations have settled to.
     result.condition_number = identifiability(std_.cwiseInverse().asDiagonal() * equations_.a,
                                               std_.cwiseInverse().asDiagonal() * equations_.largest)
                                   .condition_number;
@@ -387,20 +387,6 @@ class Fit {
 };
 
 }  // namespace
-
-JointStiffness Identification::stiffness() const {
-  JointStiffness result;
-  result.compliance_covariance.emplace(Matrix6d::Zero());
-  for (int j = 0; j < kJoints; ++j) {
-    if (!identified(j)) continue;
-    result.stiffness[static_cast<std::size_t>(j)] = 1 / compliance[j];
-    for (int i = 0; i < kJoints; ++i) {
-      if (identified(i)) (*result.compliance_covariance)(j, i) = covariance(j, i);
-    }
-  }
-  if (!deviations_known) result.compliance_covariance.reset();
-  return result;
-}
 
 Identification identify_stiffness(const Robot& robot, const std::vector<LoadSample>& samples,
                                   const IdentificationOptions& options) {

@@ -2,12 +2,10 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include "robot/identifiability.h"
-#include "robot/joint_stiffness.h"
 #include "robot/load_sample.h"
 
 namespace stablecut {
@@ -58,7 +56,6 @@ struct Identification {
   bool identified(int joint) const {
     return verdict[static_cast<std::size_t>(joint)] == JointVerdict::kIdentified;
   }
-  JointStiffness stiffness() const;
 };
 
 /// Least squares in the compliances, none below 0. Weights: the samples' deviations; without them all

@@ -41,10 +41,10 @@ RobotPose robot_pose(const Robot& robot, const JointAngles& angles) {
     pose.axis.col(j) = joint.theta_sign * z;
     pose.point.col(j) = origin;
   }
-  pose.frame6.linear() = rotation;
-  pose.frame6.translation() = origin;
-  pose.frame6.makeAffine();
-  pose.flange = pose.frame6 * robot.flange;
+  Eigen::Isometry3d frame6 = Eigen::Isometry3d::Identity();
+  frame6.linear() = rotation;
+  frame6.translation() = origin;
+  pose.flange = frame6 * robot.flange;
   pose.tool = pose.flange * robot.tool;
   return pose;
 }

@@ -11,7 +11,6 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 struct RobotPose {
   Eigen::Matrix<double, 3, kJoints> axis;   ///< unit vectors, positive in the sense of growing angles
   Eigen::Matrix<double, 3, kJoints> point;  ///< a point on each axis: the origin of its frame
-  Eigen::Isometry3d frame6;
   Eigen::Isometry3d flange;
   Eigen::Isometry3d tool;
 };

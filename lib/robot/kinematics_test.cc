@@ -90,8 +90,7 @@ TEST_CASE("at 1.6 m the tool reaches a radius of 3.27 m in any orientation") {
       const double rise = 1.6 - wrist.z();
       if (std::abs(rise) > 0.5) continue;
       const double run = std::sqrt(0.25 - rise * rise);
-      const double swing =
-          std::acos(std::clamp(std::abs(forward.x() * run + forward.z() * rise) / 0.5, -1.0, 1.0));
+      const double swing = std::acos(std::clamp((forward.x() * run + forward.z() * rise) / 0.5, -1.0, 1.0));
       if (swing <= robot.joints[4].max_rad) farthest = std::max(farthest, wrist.x() + run);
     }
   }

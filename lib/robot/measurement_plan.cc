@@ -12,7 +12,7 @@ namespace stablecut {
 namespace {
 
 constexpr double kGain = 1e-9;   // least gain of the log determinant that an exchange is made for
-constexpr double kRidge = 1e-6;  // of the candidates' mean information, until the first few span everything
+constexpr double kRidge = 1e-6;  // of the candidates' mean information: the first few span too little
 constexpr int kMostExchanges = 100000;
 
 double log_determinant(const Eigen::MatrixXd& information) {

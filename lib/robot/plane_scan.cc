@@ -21,6 +21,19 @@ PlaneScan scan_plane(const Robot& robot, const PoseTask& task, int threads, cons
   return scan;
 }
 
+RedundancySweep redundancy_sweep(const Robot& robot, const PoseTask& task, double x, double y) {
+  RedundancySweep sweep;
+  PoseTask one = task;
+  for (int i = 0; i < task.redundancy.count; ++i) {
+    one.redundancy = {task.redundancy.at(i), task.redundancy.at(i), 1};
+    const PoseScanner scanner(robot, one);
+    const auto best = scanner.scan(x, y).best();
+    sweep.redundancy_rad.push_back(one.redundancy.from);
+    sweep.score.push_back(best ? std::optional(scanner.evaluate(best->at)->score) : std::nullopt);
+  }
+  return sweep;
+}
+
 PoseMap pose_map(const Robot& robot, const PlaneScan& scan) {
   const PoseScanner scanner(robot, scan.task);
   const Eigen::Index rows = scan.task.y.count, columns = scan.task.x.count;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "base/progress.h"
@@ -18,6 +19,14 @@ struct PlaneScan {
   const PointScan& at(int x, int y) const { return points[static_cast<std::size_t>(y) * task.x.count + x]; }
 };
 PlaneScan scan_plane(const Robot& robot, const PoseTask& task, int threads, const Progress& progress = {});
+
+/// The score at a point (m, in the plane) over the task's redundancy samples, of the best branch at each;
+/// none where nothing is allowed.
+struct RedundancySweep {
+  std::vector<double> redundancy_rad;
+  std::vector<std::optional<double>> score;  ///< N/m, or m for a deflection
+};
+RedundancySweep redundancy_sweep(const Robot& robot, const PoseTask& task, double x, double y);
 
 /// The best of the samples at each point; nothing is refined.
 struct PoseMap {

@@ -94,7 +94,7 @@ void PoseScanner::visit(double x, double y, PointScan& result, const Use& use) c
     solve_arms(inverse_.constants(), target, lanes);
   };
   ArmLanes lanes;
-  double compliance[6][kArms], merit[kArms];
+  double compliance[6][kArms], merit[kArms] = {};
   const auto score = [&](const Sample& sample) {
     if (stiffness.force_n && stiffness.force_in_tool) force = sample.axes * *stiffness.force_n;
     ArmScores(stiffness, compliance).merits(sample.axes, force, merit);

@@ -16,8 +16,6 @@
 namespace stablecut {
 namespace {
 
-constexpr const char* kOutOfReach =
-    "no reachable pose: nothing of the plane is within the arm's reach with this tool axis";
 constexpr double kLargestStep = 0.05;           // m, of the search's grid
 constexpr double kLargestTurn = 5 * kPi / 180;  // rad
 constexpr int kLeastSamples = 25;               // of an interval, however short
@@ -41,10 +39,9 @@ Range within(const Range& range, const Range& reach) {
 // The task's samples where they are fine enough, else finer ones, where the arm may reach.
 PoseTask with_search_grid(const Robot& robot, const PoseTask& task) {
   const auto reach = plane_reach(robot, task.plane, task.tool_axis);
-  if (!reach) throw NoAnswer(kOutOfReach);
   PoseTask grid = task;
-  grid.x = at_most_apart(within(task.x, reach->x), kLargestStep);
-  grid.y = at_most_apart(within(task.y, reach->y), kLargestStep);
+  grid.x = at_most_apart(within(task.x, reach.x), kLargestStep);
+  grid.y = at_most_apart(within(task.y, reach.y), kLargestStep);
   grid.redundancy = at_most_apart(task.redundancy, kLargestTurn);
   return grid;
 }
@@ -139,9 +136,7 @@ std::vector<ScanBest> starts_outside(const PlaneScan& scan) {
     at = point.least_outside.at;
   }
   const auto evaluation = std::isfinite(margin) ? scanner.evaluate(at) : std::nullopt;
-  if (!evaluation) {
-    throw NoAnswer(kOutOfReach);
-  }
+  if (!evaluation) throw NoAnswer(kOutOfReach);
   int worst = 0;
   double least = std::numeric_limits<double>::infinity();
   for (int j = 0; j < kJoints; ++j) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "base/units.h"
 
 namespace stablecut {
@@ -13,8 +14,7 @@ bool PoseTask::full_turn() const {
   return gap <= std::min(redundancy.step(), kLargestGap) + 1e-9;
 }
 
-std::optional<PlaneReach> plane_reach(const Robot& robot, const Plane& plane,
-                                      const Eigen::Vector3d& tool_axis) {
+PlaneReach plane_reach(const Robot& robot, const Plane& plane, const Eigen::Vector3d& tool_axis) {
   // The wrist centre lies within a ball about joint 2's axis' foot on axis 1, the tool point within a known
   // distance of the wrist centre: along the tool axis exactly, across it in any direction.
   const auto& j = robot.joints;
@@ -27,10 +27,10 @@ std::optional<PlaneReach> plane_reach(const Robot& robot, const Plane& plane,
   const Eigen::Vector3d centre = home + from_wrist.z() * tool_axis - plane.origin;
   const double radius = arm + from_wrist.head<2>().norm();
   const double distance = centre.dot(plane.x_axis.cross(plane.y_axis));
-  if (std::abs(distance) > radius) return std::nullopt;
+  if (std::abs(distance) > radius) throw NoAnswer(kOutOfReach);
   const double across = std::sqrt(radius * radius - distance * distance);
   const double x = centre.dot(plane.x_axis), y = centre.dot(plane.y_axis);
-  return PlaneReach{{x - across, x + across, 2}, {y - across, y + across, 2}};
+  return {{x - across, x + across, 2}, {y - across, y + across, 2}};
 }
 
 }  // namespace stablecut

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 
 #include "base/range.h"
 #include "robot/compliance.h"
@@ -47,12 +46,15 @@ struct FoundPose {
   double score = 0;    ///< N/m, or m for a deflection
 };
 
+/// What NoAnswer says where nothing of a plane can be reached.
+inline constexpr const char* kOutOfReach =
+    "no reachable pose: nothing of the plane is within the arm's reach with this tool axis";
+
 /// Bounds in the plane's coordinates (m) of what the tool point can reach with the tool axis as it is, limits
-/// aside: not less than that, perhaps more. Nothing when the plane is out of reach.
+/// aside: not less than that, perhaps more. Throws NoAnswer when the plane is out of reach.
 struct PlaneReach {
   Range x, y;
 };
-std::optional<PlaneReach> plane_reach(const Robot& robot, const Plane& plane,
-                                      const Eigen::Vector3d& tool_axis);
+PlaneReach plane_reach(const Robot& robot, const Plane& plane, const Eigen::Vector3d& tool_axis);
 
 }  // namespace stablecut

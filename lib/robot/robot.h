@@ -41,7 +41,6 @@ struct Joint {
 };
 
 struct Robot {
-  std::string name;
   std::array<Joint, kJoints> joints;
   Eigen::Isometry3d flange = Eigen::Isometry3d::Identity();  ///< in frame 6
   Eigen::Isometry3d tool =

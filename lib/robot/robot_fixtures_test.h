@@ -67,8 +67,8 @@ inline PoseTask tool_down(const Robot& robot, double height_m, StiffnessIndex in
   PoseTask task;
   task.plane.origin.z() = height_m;
   const auto reach = plane_reach(robot, task.plane, task.tool_axis);
-  task.x = {reach->x.from, reach->x.to, 64};
-  task.y = {reach->y.from, reach->y.to, 64};
+  task.x = {reach.x.from, reach.x.to, 64};
+  task.y = {reach.y.from, reach.y.to, 64};
   task.redundancy = {-kPi, kPi - kPi / 36, 72};
   task.stiffness.index = index;
   task.stiffness.force_n = Eigen::Vector3d(0, 0, -588.6);
