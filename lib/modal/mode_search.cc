@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "modal/noise.h"
+#include "dynamics/noise.h"
 #include "modal/pole_sums.h"
 #include "modal/vector_fitting.h"
 

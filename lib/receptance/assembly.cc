@@ -1,22 +1,78 @@
 #include "receptance/assembly.h"
 
 #include "base/error.h"
+#include "base/units.h"
 
 namespace stablecut {
+namespace {
 
-Eigen::Matrix2cd tip_receptance(const std::vector<BeamSegment>& tool, const HeldTool& held, BeamTheory theory,
-                                double omega) {
-  if (tool.empty() || held.holder.empty())
-    throw InvalidArgument("assembly: no segment: expected at least one");
-  // From the inner end of the holder outwards to the tip.
-  Eigen::Matrix2cd holder = held.holder_fixed ? fixed_free_receptance(held.holder.back(), theory, omega)
-                                              : free_free_receptances(held.holder.back(), theory, omega).r11;
-  for (std::size_t i = held.holder.size() - 1; i-- > 0;) {
-    holder = held_receptance(held.holder[i], theory, omega, holder);
+// Both directions from one or from each: blocks on the diagonal.
+template <typename InDirection>
+Receptance<4> in_both(bool same, const InDirection& in_direction) {
+  Receptance<4> both = Receptance<4>::Zero();
+  both.topLeftCorner<2, 2>() = in_direction(0);
+  if (same) {
+    both.bottomRightCorner<2, 2>() = both.topLeftCorner<2, 2>();
+  } else {
+    both.bottomRightCorner<2, 2>() = in_direction(1);
   }
-  if (held.joint) holder += held.joint->receptance(omega);
-  for (std::size_t i = tool.size(); i-- > 0;) holder = held_receptance(tool[i], theory, omega, holder);
-  return holder;
+  return both;
+}
+
+// The joint's receptance Kc^-1; zero for a rigid one.
+Receptance<2> joint_receptance(const std::optional<ToolJoint>& joint, double omega) {
+  Receptance<2> result = Receptance<2>::Zero();
+  if (joint) result.diagonal() = joint->stiffness(omega).cwiseInverse();
+  return result;
+}
+
+}  // namespace
+
+Receptance<2> Assembly::holder(int direction, Eigen::Index line) const {
+  const HeldBy& by = held[static_cast<std::size_t>(direction)];
+  const double omega = rad_per_s_from_hz(frequency_hz[line]);
+  if (by.end == HolderEnd::kFree) {
+    if (by.segments.empty()) throw InvalidArgument("holder: a free end: expected a segment");
+    const BeamChain outer(by.segments.begin(), by.segments.end() - 1);
+    return held_chain<2>(outer, theory, omega, free_free_receptances(by.segments.back(), theory, omega).r11);
+  }
+  Receptance<2> inner = Receptance<2>::Zero();
+  if (by.end == HolderEnd::kGiven) {
+    inner = given[static_cast<std::size_t>(line)].block<2, 2>(2 * direction, 2 * direction);
+  }
+  return held_chain<2>(by.segments, theory, omega, inner);
+}
+
+JointPlane<2> Assembly::plane(int direction, Eigen::Index line) const {
+  const double omega = rad_per_s_from_hz(frequency_hz[line]);
+  const JointPlane<2> bare = joint_plane<2>(tool, theory, omega, holder(direction, line));
+  return tip_mass_kg > 0 ? with_tip_mass<2>(bare, tip_mass_kg, omega) : bare;
+}
+
+Receptance<4> Assembly::tip(Eigen::Index line) const {
+  const double omega = rad_per_s_from_hz(frequency_hz[line]);
+  if (couples_directions) return with_mass<4>(along_tool(line, 0, 0), tip_mass_kg, omega);
+  return in_both(axisymmetric, [&](int direction) -> Receptance<2> {
+    if (const auto& joint = held[static_cast<std::size_t>(direction)].joint) {
+      return plane(direction, line).tip(joint->stiffness(omega));
+    }
+    return with_mass<2>(held_chain<2>(tool, theory, omega, holder(direction, line)), tip_mass_kg, omega);
+  });
+}
+
+Receptance<4> Assembly::along_tool(Eigen::Index line, double response_m, double reference_m) const {
+  const double omega = rad_per_s_from_hz(frequency_hz[line]);
+  if (couples_directions) {
+    Receptance<4> holder = held_chain<4>(held[0].segments, theory, omega, given[static_cast<std::size_t>(line)]);
+    holder.topLeftCorner<2, 2>() += joint_receptance(held[0].joint, omega);
+    holder.bottomRightCorner<2, 2>() += joint_receptance(held[1].joint, omega);
+    return receptance_along<4>(tool, theory, omega, holder, response_m, reference_m);
+  }
+  return in_both(axisymmetric, [&](int direction) -> Receptance<2> {
+    const Receptance<2> held_by =
+        holder(direction, line) + joint_receptance(held[static_cast<std::size_t>(direction)].joint, omega);
+    return receptance_along<2>(tool, theory, omega, held_by, response_m, reference_m);
+  });
 }
 
 }  // namespace stablecut

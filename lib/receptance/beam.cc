@@ -15,7 +15,7 @@ using Complex = std::complex<double>;
 
 // Below this size of wavenumber times length the series are used, above it the functions themselves.
 constexpr double kSeriesLimit = 2;
-constexpr int kMostTerms = 40;
+constexpr int kTerms = 16;  // (k + 1) 4^k / (2k)! is below 1e-20 from here on
 
 // A segment at one frequency. With the deflection w and the section's rotation psi, V' = -rho A w^2 w, M' =
 // -V - rho I w^2 psi, psi' = M / EI, w' = psi + V / (kappa G A); solutions exp(s x) with s^2 = p or q, the
@@ -73,7 +73,7 @@ Series series_at(const Waves& w, double x) {
   // P_(k-1), P_(k-2), P_(k-3) for k = 1.
   Complex p1 = 1, p2 = 0, p3 = 0;
   double even = 1;  // x^2k/(2k)!
-  for (int k = 1; k < kMostTerms; ++k) {
+  for (int k = 1; k < kTerms; ++k) {
     even *= x * x / (2 * k * (2 * k - 1));
     const double odd = even * x / (2 * k + 1);
     const Complex p0 = sum * p1 - pq * p2;  // P_k
@@ -167,23 +167,30 @@ BeamReceptances free_free_receptances(const BeamSegment& segment, BeamTheory the
           mirror.asDiagonal() * sum * mirror.asDiagonal()};
 }
 
-Eigen::Matrix2cd held_receptance(const BeamSegment& segment, BeamTheory theory, double omega_rad_per_s,
-                                 const Eigen::Matrix2cd& holder) {
+template <int N>
+Receptance<N> held_receptance(const BeamSegment& segment, BeamTheory theory, double omega_rad_per_s,
+                              const Receptance<N>& holder) {
   const Waves w = waves_of(segment, theory, omega_rad_per_s);
   if (series_suffice(w, segment.length_m)) {
     // From end 2 at x = 0 with the force V0 and moment M0 that the holder takes there: w0, psi0 = H (V0, M0),
     // and the solution is w0 e0 + M0/EI e2 + (psi0 + a V0 / (rho A w^2)) o1 - (V0/EI + b psi0) o3.
     const Series s = series_at(w, segment.length_m);
     const Pair even = even_by_series(w, s), odd = odd_by_series(w, s);
-    Eigen::Matrix2cd of_even, of_odd;  // coefficients per V0 and M0
-    of_even << holder(0, 0), holder(0, 1), 0, 1.0 / w.bending;
-    of_odd << holder(1, 0) + w.a / w.inertia, holder(1, 1), -1.0 / w.bending - w.b * holder(1, 0),
-        -w.b * holder(1, 1);
-    return receptance(
-        {even.movement * of_even + odd.movement * of_odd, even.load * of_even + odd.load * of_odd});
+    // The coefficients of e0 and e2, o1 and o3: per movement and per load at end 2.
+    const Eigen::Matrix2cd even_of_movement{{1, 0}, {0, 0}}, even_of_load{{0, 0}, {0, 1.0 / w.bending}};
+    const Eigen::Matrix2cd odd_of_movement{{0, 1}, {0, -w.b}},
+        odd_of_load{{w.a / w.inertia, 0}, {-1.0 / w.bending, 0}};
+    const auto at_end_1 = [&](const Eigen::Matrix2cd& of_even, const Eigen::Matrix2cd& of_odd) -> Receptance<N> {
+      return in_all_directions<N>(of_even * even_of_movement + of_odd * odd_of_movement) * holder +
+             in_all_directions<N>(of_even * even_of_load + of_odd * odd_of_load);
+    };
+    return at_end_1(even.movement, odd.movement) * at_end_1(even.load, odd.load).inverse();
   }
   // With waves on it the free segment is no rigid body any more, and holding its end cancels nothing.
-  return coupled_tip(free_free_receptances(segment, theory, omega_rad_per_s), holder);
+  return coupled_tip<N>(free_free_receptances(segment, theory, omega_rad_per_s), holder);
 }
+
+template Receptance<2> held_receptance<2>(const BeamSegment&, BeamTheory, double, const Receptance<2>&);
+template Receptance<4> held_receptance<4>(const BeamSegment&, BeamTheory, double, const Receptance<4>&);
 
 }  // namespace stablecut

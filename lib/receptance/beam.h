@@ -7,6 +7,13 @@
 
 namespace stablecut {
 
+/// Deflection (m) and slope (rad) per force (N) and moment (N m), in one direction (N = 2: [[h, l], [n, p]]) or
+/// in x and y (N = 4: w_x, slope_x, w_y, slope_y). The slope is d(deflection)/ds with s from the joint (end 2)
+/// towards the tip (end 1), a moment acts in its sense. In Timoshenko's theory the slope is the rotation of
+/// the section.
+template <int N>
+using Receptance = Eigen::Matrix<std::complex<double>, N, N>;
+
 enum class BeamTheory { kEulerBernoulli, kTimoshenko };
 
 /// A round bar or tube of one material.
@@ -20,12 +27,22 @@ struct BeamSegment {
   double loss_factor = 0;  ///< structural damping: E and G become E (1 + i eta), G (1 + i eta)
 };
 
-/// Receptances between two places, each [[h, l], [n, p]]: deflection (m) and slope (rad) per force (N) and
-/// moment (N m). The slope is d(deflection)/ds with s from the joint (end 2) towards the tip (end 1), a
-/// moment acts in its sense. In Timoshenko's theory the slope is the rotation of the section.
+/// Of a free part, in one direction: between its ends 1 (tip) and 2 (joint).
 struct BeamReceptances {
-  Eigen::Matrix2cd r11, r12, r21, r22;
+  Receptance<2> r11, r12, r21, r22;
 };
+
+/// The same in each of the N / 2 directions, which a round part does not couple.
+template <int N>
+Receptance<N> in_all_directions(const Receptance<2>& one) {
+  if constexpr (N == 2) {
+    return one;
+  } else {
+    Receptance<4> all = Receptance<4>::Zero();
+    all.template topLeftCorner<2, 2>() = all.template bottomRightCorner<2, 2>() = one;
+    return all;
+  }
+}
 
 /// Shear coefficient after Cowper of a round section or tube.
 double cowper_shear_coefficient(double inner_over_outer_diameter, double poisson_ratio);
@@ -36,14 +53,9 @@ BeamReceptances free_free_receptances(const BeamSegment& segment, BeamTheory the
 
 /// The receptance at end 1 of a segment whose end 2 is held by a part of receptance `holder` (zero: fixed).
 /// Where the segment is short for its waves this does not pass through the segment's own rigid body, and so
-/// does not cancel.
-Eigen::Matrix2cd held_receptance(const BeamSegment& segment, BeamTheory theory, double omega_rad_per_s,
-                                 const Eigen::Matrix2cd& holder);
-
-/// A segment fixed at its end 2, at its end 1.
-inline Eigen::Matrix2cd fixed_free_receptance(const BeamSegment& segment, BeamTheory theory,
-                                              double omega_rad_per_s) {
-  return held_receptance(segment, theory, omega_rad_per_s, Eigen::Matrix2cd::Zero());
-}
+/// does not cancel. N is 2 or 4.
+template <int N>
+Receptance<N> held_receptance(const BeamSegment& segment, BeamTheory theory, double omega_rad_per_s,
+                              const Receptance<N>& holder);
 
 }  // namespace stablecut

@@ -1,18 +1,13 @@
 #include "receptance/coupling.h"
 
-#include <Eigen/LU>
-
 namespace stablecut {
 
-Eigen::Matrix2cd ToolJoint::receptance(double omega) const {
-  Eigen::Matrix2cd result = Eigen::Matrix2cd::Zero();
-  result(0, 0) = 1.0 / std::complex<double>(k1, omega * c1);
-  result(1, 1) = 1.0 / std::complex<double>(k2, omega * c2);
-  return result;
-}
-
-Eigen::Matrix2cd coupled_tip(const BeamReceptances& tool, const Eigen::Matrix2cd& holder) {
-  return tool.r11 - tool.r12 * (tool.r22 + holder).inverse() * tool.r21;
+BeamReceptances joined(const BeamReceptances& outer, const BeamReceptances& inner) {
+  // The load through the joint per load at the outer and at the inner end.
+  const Receptance<2> soft = (outer.r22 + inner.r11).inverse();
+  const Receptance<2> from_outer = soft * outer.r21, from_inner = soft * inner.r12;
+  return {outer.r11 - outer.r12 * from_outer, outer.r12 * from_inner, inner.r21 * from_outer,
+          inner.r22 - inner.r21 * from_inner};
 }
 
 }  // namespace stablecut

@@ -1,4 +1,4 @@
-#include "modal/noise.h"
+#include "dynamics/noise.h"
 
 #include <catch2/catch.hpp>
 #include <random>

@@ -1,0 +1,165 @@
+#include "receptance/held_tool.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+
+namespace stablecut {
+namespace {
+
+// Outer and inner part of a chain cut at a distance from its tip; at an end one of them is empty.
+std::pair<BeamChain, BeamChain> cut_at(const BeamChain& chain, double distance_m) {
+  std::pair<BeamChain, BeamChain> parts;
+  double start = 0;
+  for (const BeamSegment& segment : chain) {
+    // A remainder of rounding is no segment.
+    const double within = distance_m - start, rounding = 1e-12 * segment.length_m;
+    if (within >= segment.length_m - rounding) {
+      parts.first.push_back(segment);
+    } else if (within <= rounding) {
+      parts.second.push_back(segment);
+    } else {
+      parts.first.push_back(segment);
+      parts.first.back().length_m = within;
+      parts.second.push_back(segment);
+      parts.second.back().length_m = segment.length_m - within;
+    }
+    start += segment.length_m;
+  }
+  return parts;
+}
+
+void check_on(const BeamChain& chain, double distance_m) {
+  double length = 0;
+  for (const BeamSegment& segment : chain) length += segment.length_m;
+  if (!(distance_m >= 0 && distance_m <= length * (1 + 1e-12))) {
+    throw InvalidArgument("position " + std::to_string(1e3 * distance_m) + " mm: expected 0 to " +
+                          std::to_string(1e3 * length) + " mm, a place on the tool");
+  }
+}
+
+// Two parts that meet, one of receptance `a`, the other of `b`: both together. Also where one is fixed.
+template <int N>
+Receptance<N> together(const Receptance<N>& a, const Receptance<N>& b) {
+  return a * (a + b).inverse() * b;
+}
+
+// Between two places on a chain whose inner end is met by `inner_of(part)`, the receptance of what lies
+// inwards of a cut, which starts with `part`.
+template <int N, typename InnerOf>
+Receptance<N> between(const BeamChain& chain, BeamTheory theory, double omega, double response_m,
+                      double reference_m, const InnerOf& inner_of) {
+  check_on(chain, response_m);
+  check_on(chain, reference_m);
+  const double farther = std::max(response_m, reference_m), nearer = std::min(response_m, reference_m);
+  const auto [outer, inner] = cut_at(chain, farther);
+  if (outer.empty()) return inner_of(inner);
+  const BeamReceptances free = free_chain(outer, theory, omega);
+  const Receptance<N> farther_free = in_all_directions<N>(free.r22);
+  const Receptance<N> at_farther = together<N>(farther_free, inner_of(inner));
+  if (nearer == farther) return at_farther;
+  // The outer part moves its nearer place as the load at its end does that moves the end so.
+  const Receptance<2> nearer_free = free_response_to_end(outer, theory, omega, nearer);
+  if (response_m < reference_m) {
+    return in_all_directions<N>(nearer_free) * farther_free.inverse() * at_farther;
+  }
+  return at_farther * farther_free.inverse() * in_all_directions<N>(nearer_free.transpose());
+}
+
+template <int N>
+Receptance<N> mass_matrix(double mass_kg, double omega) {
+  const Eigen::Matrix2cd one{{mass_kg * omega * omega, 0}, {0, 0}};
+  return in_all_directions<N>(one);
+}
+
+}  // namespace
+
+template <int N>
+Receptance<N> held_chain(const BeamChain& chain, BeamTheory theory, double omega, const Receptance<N>& inner) {
+  Receptance<N> held = inner;
+  for (std::size_t i = chain.size(); i-- > 0;) held = held_receptance<N>(chain[i], theory, omega, held);
+  return held;
+}
+
+BeamReceptances free_chain(const BeamChain& chain, BeamTheory theory, double omega) {
+  if (chain.empty()) throw InvalidArgument("no segment: expected at least one");
+  BeamReceptances whole = free_free_receptances(chain.front(), theory, omega);
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    whole = joined(whole, free_free_receptances(chain[i], theory, omega));
+  }
+  return whole;
+}
+
+template <int N>
+JointPlane<N> joint_plane(const BeamChain& tool, BeamTheory theory, double omega,
+                          const Receptance<N>& holder) {
+  const BeamReceptances free = free_chain(tool, theory, omega);
+  JointPlane<N> plane;
+  plane.rigid_tip = held_chain<N>(tool, theory, omega, holder);
+  plane.stiffness = (in_all_directions<N>(free.r22) + holder).inverse();
+  plane.of_opening = in_all_directions<N>(free.r12) * plane.stiffness;
+  plane.transmitted = plane.stiffness * in_all_directions<N>(free.r21);
+  return plane;
+}
+
+template <int N>
+JointPlane<N> with_tip_mass(const JointPlane<N>& plane, double mass_kg, double omega) {
+  // The tip's load is F + M w^2 tip.
+  const Receptance<N> mass = mass_matrix<N>(mass_kg, omega);
+  const Receptance<N> moves = (Receptance<N>::Identity() - plane.rigid_tip * mass).inverse();
+  JointPlane<N> result;
+  result.rigid_tip = moves * plane.rigid_tip;
+  result.of_opening = moves * plane.of_opening;
+  result.transmitted = plane.transmitted * (Receptance<N>::Identity() + mass * result.rigid_tip);
+  result.stiffness = plane.stiffness - plane.transmitted * mass * result.of_opening;
+  return result;
+}
+
+template <int N>
+Receptance<N> with_mass(const Receptance<N>& at, double mass_kg, double omega) {
+  return (Receptance<N>::Identity() - at * mass_matrix<N>(mass_kg, omega)).inverse() * at;
+}
+
+template <int N>
+Receptance<N> receptance_along(const BeamChain& tool, BeamTheory theory, double omega,
+                               const Receptance<N>& holder, double response_m, double reference_m) {
+  return between<N>(tool, theory, omega, response_m, reference_m,
+                    [&](const BeamChain& inner) { return held_chain<N>(inner, theory, omega, holder); });
+}
+
+Receptance<2> free_response_to_end(const BeamChain& tool, BeamTheory theory, double omega,
+                                   double response_m) {
+  check_on(tool, response_m);
+  const auto [outer, inner] = cut_at(tool, response_m);
+  if (inner.empty()) return free_chain(outer, theory, omega).r22;
+  const BeamReceptances near_end = free_chain(inner, theory, omega);
+  if (outer.empty()) return near_end.r12;
+  const Receptance<2> at_cut = free_chain(outer, theory, omega).r22;
+  return at_cut * (at_cut + near_end.r11).inverse() * near_end.r12;
+}
+
+Receptance<2> free_receptance_along(const BeamChain& tool, BeamTheory theory, double omega,
+                                    double response_m, double reference_m) {
+  // At the very end nothing lies inwards: the outer part is the whole.
+  const auto whole = [&](double distance_m) { return cut_at(tool, distance_m).second.empty(); };
+  if (whole(reference_m)) return free_response_to_end(tool, theory, omega, response_m);
+  if (whole(response_m)) return free_response_to_end(tool, theory, omega, reference_m).transpose();
+  return between<2>(tool, theory, omega, response_m, reference_m, [&](const BeamChain& inner) -> Receptance<2> {
+    return free_chain(inner, theory, omega).r11;
+  });
+}
+
+#define STABLECUT_FOR_DIRECTIONS(N)                                                                        \
+  template Receptance<N> held_chain<N>(const BeamChain&, BeamTheory, double, const Receptance<N>&);        \
+  template JointPlane<N> joint_plane<N>(const BeamChain&, BeamTheory, double, const Receptance<N>&);       \
+  template JointPlane<N> with_tip_mass<N>(const JointPlane<N>&, double, double);                           \
+  template Receptance<N> with_mass<N>(const Receptance<N>&, double, double);                               \
+  template Receptance<N> receptance_along<N>(const BeamChain&, BeamTheory, double, const Receptance<N>&,   \
+                                             double, double);
+STABLECUT_FOR_DIRECTIONS(2)
+STABLECUT_FOR_DIRECTIONS(4)
+#undef STABLECUT_FOR_DIRECTIONS
+
+}  // namespace stablecut
