@@ -1,72 +1,317 @@
-// rcsa-couple: a tool, its holder and the joint between them in, the frequency responses at the tip out.
+// rcsa-couple: a tool, its holder and the joint between them in, the frequency responses at the tip out; or a
+// measured tip in, and the joint out.
 
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "base/error.h"
 #include "base/parallel.h"
 #include "base/units.h"
+#include "cli/exit_status.h"
 #include "cli/progress_bar.h"
 #include "cli/tool.h"
 #include "document/assembly.h"
+#include "document/error.h"
 #include "document/frf.h"
+#include "document/tool_joint.h"
 
 namespace stablecut {
 namespace {
+
+constexpr std::array<const char*, 2> kDirections = {"x", "y"};
+constexpr std::array<const char*, 4> kJointNames = {"k1", "c1", "k2", "c2"};
+constexpr double kNoFit = 0.5;    // relative residual from which on no joint explains the tip
+constexpr double kPoorFit = 0.1;  // from which on a line says so
+constexpr std::size_t kMostPositions = 50;
 
 class RcsaCouple : public cli::Tool {
  public:
   RcsaCouple()
       : Tool("rcsa-couple",
-             "The frequency responses at the tip of a tool that nobody tapped: beams for tool and holder, "
-             "and the joint "
-             "between them, by receptance coupling.",
+             "The frequency responses at the tip of a tool that nobody tapped, by receptance coupling of "
+             "tool, "
+             "joint and holder; or, with --identify, the joint from a measured tip.",
              "frf") {}
 
  private:
+  static cli::Failure usage(const std::string& text) {
+    return {cli::ExitStatus::kUsage, text + " (see rcsa-couple --help)"};
+  }
+
   void setup(CLI::App& app) override {
     app.add_flag("--slopes", slopes_, "Also the responses of slopes and to moments");
+    cli::add_repeated_option(app, "--positions", "MM,MM,...",
+                             "Responses between these places on the tool, distances from the tip in mm",
+                             [this](const std::string& text) { take_positions(text); });
+    add_file_option(app, "--joint", joint_path_, "Take the joint from a tool-joint document");
+    add_file_option(app, "--identify", identify_path_,
+                    "Identify the joint from a measured tip (frf), and write a tool-joint document");
+    cli::add_repeated_option(app, "--bounds", "NAME=LO:HI,...",
+                             "Bounds of k1 (N/m), c1 (N s/m), k2 (N m/rad), c2 (N m s/rad) for --identify",
+                             [this](const std::string& text) { take_bounds(text); });
+    cli::add_choice_option(
+        app, "--objective", objective_, "complex|amplitude",
+        "What --identify makes least: the weighted complex error (default), or the paper's "
+        "amplitude difference");
+    add_file_option(app, "--fitted", fitted_path_, "Also write the tip with the identified joint (frf)");
+    add_file_option(app, "--rigid", rigid_path_, "Also write the tip with a rigid joint (frf)");
   }
 
   void run() override {
-    const cli::Input input = read_main_input(true);
-    const AssemblyDocument assembly = assembly_from_json(input.document, input.source);
+    if (identify_path_.empty()) {
+      if (!fitted_path_.empty()) throw usage("--fitted: expected --identify");
+      if (!objective_.empty()) throw usage("--objective: expected --identify");
+      if (bounds_given_) throw usage("--bounds: expected --identify");
+      couple();
+    } else {
+      if (!joint_path_.empty()) throw usage("--joint: expected no --identify");
+      if (slopes_ || !positions_m_.empty()) throw usage("--slopes, --positions: expected no --identify");
+      identify();
+    }
+  }
+
+  // ---- options ----
+
+  static std::vector<std::string> parts_of(const std::string& text) {
+    std::vector<std::string> parts = {""};
+    for (const char c : text) {
+      if (c == ',') {
+        parts.emplace_back();
+      } else {
+        parts.back() += c;
+      }
+    }
+    return parts;
+  }
+
+  void take_positions(const std::string& text) {
+    for (const std::string& part : parts_of(text)) {
+      const auto position = parse_number(part);
+      if (!position || *position < 0 || positions_m_.size() == kMostPositions)
+        throw CLI::ValidationError("--positions",
+                                   text + ": expected up to 50 distances from the tip in mm, as 0,40");
+      const double metres = metres_from_mm(*position);
+      if (std::find(positions_m_.begin(), positions_m_.end(), metres) != positions_m_.end())
+        throw CLI::ValidationError("--positions", text + ": expected each place once");
+      positions_m_.push_back(metres);
+    }
+  }
+
+  void take_bounds(const std::string& text) {
+    for (const std::string& part : parts_of(text)) {
+      const auto equals = part.find('=');
+      const auto name = std::find(kJointNames.begin(), kJointNames.end(), part.substr(0, equals));
+      const auto band = equals == std::string::npos ? std::nullopt : parse_band(part.substr(equals + 1));
+      const auto at = static_cast<std::size_t>(name - kJointNames.begin());
+      if (name == kJointNames.end() || !band || band->from < 0 || (at % 2 == 0 && band->from == 0)) {
+        throw CLI::ValidationError("--bounds",
+                                   part +
+                                       ": expected k1=LO:HI, c1=, k2= or c2=, increasing, above 0 for "
+                                       "k1 and k2, not below 0 for c1 and c2");
+      }
+      bounds_.least[at] = band->from;
+      bounds_.most[at] = band->to;
+    }
+    bounds_given_ = true;
+  }
+
+  // ---- coupling ----
+
+  AssemblyDocument read_assembly(const Input& input, const Eigen::VectorXd& frequency_hz) {
+    const auto folder = std::filesystem::path(main_input() == "-" ? "" : main_input()).parent_path();
+    AssemblyDocument document = assembly_from_json(
+        input.document, input.source, frequency_hz,
+        [&](const std::string& path) { return read_input((folder / path).string(), false); });
+    for (const std::string& text : document.warnings) warn(text);
+    return document;
+  }
+
+  void set_joints(Assembly& assembly, const std::array<std::optional<ToolJoint>, 2>& joints) const {
+    for (std::size_t d = 0; d < 2; ++d) assembly.held[d].joint = joints[d];
+    const auto values = [&](std::size_t d) { return joints[d] ? values_of(*joints[d]) : JointValues{}; };
+    assembly.axisymmetric = assembly.axisymmetric && values(0) == values(1);
+  }
+
+  // The tip, or pairs of places on the tool.
+  FrequencyResponse responses(const Assembly& assembly) {
+    std::vector<std::pair<double, double>> places;
+    for (const double a : positions_m_) {
+      for (const double b : positions_m_) places.emplace_back(a, b);
+    }
     const auto lines = static_cast<std::size_t>(assembly.frequency_hz.size());
-    std::vector<std::array<Eigen::Matrix2cd, 2>> tip(lines);
+    const std::size_t pairs = std::max<std::size_t>(places.size(), 1);
+    std::vector<Receptance<4>> value(lines * pairs);
     {
       cli::ProgressBar bar("rcsa-couple: lines", !quiet());
       parallel_for(
           lines, threads(),
           [&](std::size_t i) {
-            const double omega = rad_per_s_from_hz(assembly.frequency_hz[static_cast<Eigen::Index>(i)]);
-            const auto in_direction = [&](std::size_t d) {
-              return tip_receptance(assembly.tool, assembly.held[d], assembly.theory, omega);
-            };
-            tip[i][0] = in_direction(0);
-            tip[i][1] = assembly.axisymmetric ? tip[i][0] : in_direction(1);
+            const auto line = static_cast<Eigen::Index>(i);
+            if (places.empty()) value[i] = assembly.tip(line);
+            for (std::size_t p = 0; p < places.size(); ++p)
+              value[i * pairs + p] = assembly.along_tool(line, places[p].first, places[p].second);
           },
           [&](double share) { bar.show(share); });
     }
     FrequencyResponse frf;
     frf.frequency_hz = assembly.frequency_hz;
-    const std::array<std::string, 2> names = {"x", "y"};
-    // Coordinates of a direction: the deflection, and with --slopes the slope.
-    for (std::size_t i = 0; i < 2; ++i) {
-      for (std::size_t j = 0; j < 2; ++j) {
-        const int coordinates = slopes_ ? 2 : 1;
-        for (int a = 0; a < coordinates; ++a) {
-          for (int b = 0; b < coordinates; ++b) {
-            FrequencyResponseEntry entry;
-            entry.response = (a == 0 ? "" : "slope_") + names[i];
-            entry.reference = (b == 0 ? "" : "slope_") + names[j];
-            entry.h = Eigen::VectorXcd::Zero(static_cast<Eigen::Index>(lines));
-            for (std::size_t k = 0; i == j && k < lines; ++k)
-              entry.h[static_cast<Eigen::Index>(k)] = tip[k][i](a, b);
-            frf.entries.push_back(std::move(entry));
+    const int step = slopes_ ? 1 : 2;  // through w_x, slope_x, w_y, slope_y
+    const auto name = [](int i) {
+      return std::string(i % 2 == 1 ? "slope_" : "") + kDirections[static_cast<std::size_t>(i / 2)];
+    };
+    for (std::size_t p = 0; p < pairs; ++p) {
+      for (int a = 0; a < 4; a += step) {
+        for (int b = 0; b < 4; b += step) {
+          FrequencyResponseEntry entry;
+          entry.response = name(a);
+          entry.reference = name(b);
+          if (!places.empty()) {
+            entry.response_position_m = places[p].first;
+            entry.reference_position_m = places[p].second;
           }
+          entry.h.resize(assembly.frequency_hz.size());
+          for (std::size_t i = 0; i < lines; ++i)
+            entry.h[static_cast<Eigen::Index>(i)] = value[i * pairs + p](a, b);
+          frf.entries.push_back(std::move(entry));
         }
       }
     }
-    write_document(main_output(), frf_to_json(frf));
+    return frf;
   }
 
-  bool slopes_ = false;
+  void write_responses(const std::string& path, const AssemblyDocument& document) {
+    Json result = frf_to_json(responses(document.assembly));
+    if (const Json quality = holder_quality_to_json(document); !quality.is_null()) result["holder"] = quality;
+    write_document(path, std::move(result));
+  }
+
+  void couple() {
+    const Input input = read_main_input(true);
+    AssemblyDocument document = read_assembly(input, assembly_frequencies(input.document, input.source));
+    if (!positions_m_.empty() && document.assembly.tip_mass_kg > 0) {
+      throw DataError(input.source.name, "/sensor_mass_g", "",
+                      "with --positions: expected no sensor on the tip");
+    }
+    if (!joint_path_.empty()) {
+      const Input joint = read_input(joint_path_, true);
+      const auto joints = tool_joints_from_json(joint.document, joint.source);
+      set_joints(document.assembly, {joints[0], joints[1]});
+    }
+    write_responses(main_output(), document);
+    write_rigid(document);
+  }
+
+  void write_rigid(AssemblyDocument document) {
+    if (rigid_path_.empty()) return;
+    set_joints(document.assembly, {});
+    write_responses(rigid_path_, document);
+  }
+
+  // ---- identification ----
+
+  // The entry at the tip itself, or null.
+  static const FrequencyResponseEntry* tip_entry(const FrequencyResponse& frf, const std::string& direction) {
+    for (const auto& entry : frf.entries) {
+      if (entry.response == direction && entry.reference == direction &&
+          entry.response_position_m.value_or(0) == 0 && entry.reference_position_m.value_or(0) == 0)
+        return &entry;
+    }
+    return nullptr;
+  }
+
+  void identify() {
+    const Input measured_input = read_input(identify_path_, true);
+    const Input input = read_main_input(true);
+    const Eigen::VectorXd wanted = assembly_frequencies(input.document, input.source);
+    const FrequencyResponse measured = to_receptance(within_band(
+        frf_from_json(measured_input.document, measured_input.source), wanted[0], wanted[wanted.size() - 1]));
+    if (measured.frequency_hz.size() == 0) {
+      throw DataError(measured_input.source.name, "/frequency_hz", "",
+                      "expected lines within the assembly's");
+    }
+    AssemblyDocument document = read_assembly(input, measured.frequency_hz);
+    Assembly& assembly = document.assembly;
+    if (assembly.couples_directions) {
+      throw DataError(input.source.name, "/holder", "",
+                      "couples x and y: expected a holder whose directions can be identified one by one");
+    }
+    std::array<const FrequencyResponseEntry*, 2> entry{};
+    for (std::size_t d = 0; d < 2; ++d) entry[d] = tip_entry(measured, kDirections[d]);
+    if (entry[0] == nullptr && entry[1] == nullptr)
+      throw DataError(measured_input.source.name, "/h", "", "expected an entry xx or yy at the tip");
+    const bool same = assembly.axisymmetric && entry[0] != nullptr && entry[1] != nullptr &&
+                      entry[0]->h == entry[1]->h && known_variance(*entry[0]) == known_variance(*entry[1]);
+
+    ToolJointDocument result;
+    result.objective = objective_ == "amplitude" ? JointObjective::kAmplitude : JointObjective::kComplex;
+    result.lines = measured.frequency_hz.size();
+    result.lo_hz = measured.frequency_hz[0];
+    result.hi_hz = measured.frequency_hz[result.lines - 1];
+    parallel_for(2, threads(), [&](std::size_t d) {
+      if (entry[d] != nullptr && !(d == 1 && same)) {
+        result.estimate[d] = estimate(assembly, static_cast<int>(d), *entry[d], result.objective);
+      }
+    });
+    if (same) result.estimate[1] = result.estimate[0];
+    for (std::size_t d = 0; d < 2; ++d) {
+      if (result.estimate[d] && !(d == 1 && same))
+        judge(*result.estimate[d], same ? "x and y" : kDirections[d]);
+    }
+    write_document(main_output(), tool_joint_to_json(result));
+    if (!fitted_path_.empty()) {
+      AssemblyDocument fitted = document;
+      const auto& known = result.estimate[0] ? result.estimate[0] : result.estimate[1];
+      set_joints(fitted.assembly, {(result.estimate[0] ? result.estimate[0] : known)->joint,
+                                   (result.estimate[1] ? result.estimate[1] : known)->joint});
+      write_responses(fitted_path_, fitted);
+    }
+    write_rigid(document);
+  }
+
+  JointEstimate estimate(const Assembly& assembly, int direction, const FrequencyResponseEntry& entry,
+                         JointObjective objective) const {
+    JointData data;
+    data.omega_rad_per_s = kTwoPi * assembly.frequency_hz;
+    for (Eigen::Index i = 0; i < data.omega_rad_per_s.size(); ++i)
+      data.plane.push_back(assembly.plane(direction, i));
+    data.tip = entry.h;
+    data.variance = known_variance(entry);
+    return identify_joint(data, bounds_, objective);
+  }
+
+  void judge(const JointEstimate& estimate, const std::string& direction) const {
+    const JointValues values = values_of(estimate.joint);
+    const auto percent = [](double share) { return std::to_string(std::lround(100 * share)) + " %"; };
+    const bool unbounded =
+        std::none_of(estimate.at_bound.begin(), estimate.at_bound.end(), [](bool b) { return b; });
+    const bool nothing =
+        std::none_of(estimate.identifiable.begin(), estimate.identifiable.end(), [](bool b) { return b; });
+    if (objective_ != "amplitude" && estimate.residual > kNoFit) {
+      throw NoAnswer(direction + ": the best joint leaves " + percent(estimate.residual) +
+                     " of the measured tip unexplained: are tool, holder and units right?");
+    }
+    if (unbounded && nothing) throw NoAnswer(direction + ": the measured tip tells nothing of the joint");
+    if (estimate.residual > kPoorFit)
+      warn(direction + ": the best joint leaves " + percent(estimate.residual) +
+           " of the measured tip unexplained");
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::string name = direction + ": " + kJointNames[i];
+      if (estimate.at_bound[i]) {
+        char text[64];
+        std::snprintf(text, sizeof text, " lies at its bound, %g", values[i]);
+        warn(name + text);
+      } else if (!estimate.identifiable[i]) {
+        warn(name + " is not identifiable: its standard deviation is " +
+             percent(estimate.deviation[i] / values[i]) + " of it");
+      }
+    }
+  }
+
+  bool slopes_ = false, bounds_given_ = false;
+  std::vector<double> positions_m_;
+  std::string joint_path_, identify_path_, fitted_path_, rigid_path_, objective_;
+  JointBounds bounds_;
 };
 
 }  // namespace

@@ -16,11 +16,7 @@
 
 namespace stablecut::cli {
 
-/// An input read and, when it is JSON, parsed.
-struct Input {
-  Source source;
-  Json document;  ///< null when the text is not JSON
-};
+using stablecut::Input;
 
 /// One executable. A tool declares its options in setup(), which opens nothing, and works in run(), which
 /// throws on failure; outputs are written after run() has returned.
@@ -41,6 +37,7 @@ class Tool {
   /// that begins with { or [ is parsed as JSON, as is every input with `must_be_json`.
   Input read_main_input(bool must_be_json) { return read_input(input_, must_be_json); }
   Input read_input(const std::string& path, bool must_be_json);
+  const std::string& main_input() const { return input_; }
 
   /// Adds provenance and takes the document as an output; "-" is standard output.
   void write_document(const std::string& path, Json document);

@@ -2,23 +2,38 @@
 #pragma once
 
 #include <array>
+#include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
-#include "document/json_text.h"
+#include "document/node.h"
 #include "receptance/assembly.h"
+#include "receptance/measured_holder.h"
 
 namespace stablecut {
 
 struct AssemblyDocument {
-  Eigen::VectorXd frequency_hz;
-  BeamTheory theory = BeamTheory::kTimoshenko;
-  std::vector<BeamSegment> tool;
-  std::array<HeldTool, 2> held;  ///< in x and in y
-  bool axisymmetric = true;      ///< the same in both
+  Assembly assembly;
+  /// Of directions whose holder was measured.
+  std::array<std::optional<HolderQuality>, 2> quality;
+  std::vector<std::string> warnings;
 };
 
-/// Throws DataError; also for what is valid in the format but not computed: a holder by modes or by
-/// receptances.
-AssemblyDocument assembly_from_json(const Json& document, const Source& source);
+/// Reads what the document names by {"file": path}.
+using DocumentLoader = std::function<Input(const std::string& path)>;
+
+/// The lines that the document asks for, Hz. Throws DataError.
+Eigen::VectorXd assembly_frequencies(const Json& document, const Source& source);
+
+/// The assembly on the given lines (Hz, above 0, increasing). Throws DataError.
+AssemblyDocument assembly_from_json(const Json& document, const Source& source,
+                                    const Eigen::VectorXd& frequency_hz, const DocumentLoader& load);
+
+/// {"k1_n_per_m", ...}. Throws DataError.
+ToolJoint tool_joint_from(const Node& node);
+
+/// What is known of measured holders, for the member `holder` of a tip's document; null when there is none.
+Json holder_quality_to_json(const AssemblyDocument& document);
 
 }  // namespace stablecut

@@ -81,9 +81,9 @@ Json complex_series(const Eigen::VectorXcd& values) {
   return {{"re", number_list(values.real())}, {"im", number_list(values.imag())}};
 }
 
-FrequencyResponse frf_from_json(const Json& document, const Source& source) {
-  const Node root = document_root(document, source, "frf");
-  root.check_names({"format", "quantity", "frequency_hz", "h", "provenance"});
+FrequencyResponse frf_from_json(const Json& document, const Source& source, const std::string& pointer) {
+  const Node root = document_root(document, source, "frf", pointer);
+  root.check_names({"format", "quantity", "frequency_hz", "h", "holder", "provenance"});
   FrequencyResponse frf;
   frf.quantity = quantity_from_name(root.at("quantity").word({"receptance", "mobility", "accelerance"}));
   const Node frequency = root.at("frequency_hz");

@@ -6,8 +6,9 @@
 
 namespace stablecut {
 
-/// Reads the document. A direction with a sign ("-x") turns the entry's sign and loses it. Throws DataError.
-FrequencyResponse frf_from_json(const Json& document, const Source& source);
+/// Reads the document, which stands at `pointer` in its source. A direction with a sign ("-x") turns the
+/// entry's sign and loses it. Throws DataError.
+FrequencyResponse frf_from_json(const Json& document, const Source& source, const std::string& pointer = "");
 
 /// The document without provenance; variances, coherences and positions are written where they are known.
 Json frf_to_json(const FrequencyResponse& frf);

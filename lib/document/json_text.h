@@ -16,6 +16,12 @@ struct Source {
   std::string text;
 };
 
+/// An input read and, when it is JSON, parsed.
+struct Input {
+  Source source;
+  Json document;  ///< null when the text is not JSON
+};
+
 /// The one JSON value of the text. Throws DataError with pointer and line for broken JSON, a duplicate key,
 /// or a number that a double cannot hold.
 Json parse_json(const Source& source);

@@ -32,8 +32,8 @@ Json vector_to(const Eigen::VectorXcd& psi) {
 
 }  // namespace
 
-ModalModel modal_table_from_json(const Json& document, const Source& source) {
-  const Node root = document_root(document, source, "modal-table");
+ModalModel modal_table_from_json(const Json& document, const Source& source, const std::string& pointer) {
+  const Node root = document_root(document, source, "modal-table", pointer);
   root.check_names({"format", "dofs", "modes", "fit", "provenance"});
   ModalModel model;
   std::vector<double> sign;  // of "-x"

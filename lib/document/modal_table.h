@@ -6,9 +6,9 @@
 
 namespace stablecut {
 
-/// Reads the modes in any scale; a dof with a sign ("-x") turns its components and loses it. Throws
-/// DataError.
-ModalModel modal_table_from_json(const Json& document, const Source& source);
+/// Reads the modes in any scale, from the document that stands at `pointer` in its source; a dof with a sign
+/// ("-x") turns its components and loses it. Throws DataError.
+ModalModel modal_table_from_json(const Json& document, const Source& source, const std::string& pointer = "");
 
 /// The document without `fit` and provenance, modes in the order given and normalised.
 Json modal_table_to_json(const ModalModel& model);

@@ -145,8 +145,8 @@ std::vector<Node> Node::items(std::size_t least) const {
   return result;
 }
 
-Node document_root(const Json& value, const Source& source, std::string_view kind) {
-  Node root(value, source);
+Node document_root(const Json& value, const Source& source, std::string_view kind, std::string pointer) {
+  Node root(value, source, std::move(pointer));
   const std::string format = root.at("format").text();
   const std::string wanted = "stablecut/" + std::string(kind) + "/1";
   if (format != wanted) root.at("format").fail("expected \"" + wanted + "\"");

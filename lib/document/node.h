@@ -66,7 +66,8 @@ class Node {
   std::string pointer_;
 };
 
-/// The document's root after checking that it is an object of the kind, `stablecut/<kind>/1`.
-Node document_root(const Json& value, const Source& source, std::string_view kind);
+/// The document's root after checking that it is an object of the kind, `stablecut/<kind>/1`. A document
+/// inside another has a pointer there.
+Node document_root(const Json& value, const Source& source, std::string_view kind, std::string pointer = "");
 
 }  // namespace stablecut

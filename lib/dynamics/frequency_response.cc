@@ -1,7 +1,9 @@
 #include "dynamics/frequency_response.h"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
+#include <string>
 
 #include "base/error.h"
 #include "base/units.h"
@@ -50,6 +52,59 @@ FrequencyResponse within_band(const FrequencyResponse& frf, double lo_hz, double
     if (entry.coherence.size() > 0) entry.coherence = entry.coherence.segment(first, count).eval();
   }
   return part;
+}
+
+FrequencyResponse on_lines(const FrequencyResponse& frf, const Eigen::VectorXd& frequency_hz) {
+  const Eigen::VectorXd& from = frf.frequency_hz;
+  const Eigen::Index measured = from.size(), lines = frequency_hz.size();
+  FrequencyResponse result = frf;
+  result.frequency_hz = frequency_hz;
+  for (auto& entry : result.entries) {
+    entry.h.resize(lines);
+    if (entry.variance.size() > 0) entry.variance.resize(lines);
+    entry.coherence.resize(0);
+    entry.averages.reset();
+  }
+  for (Eigen::Index i = 0; i < lines; ++i) {
+    const double hz = frequency_hz[i], rounding = 1e-9 * hz;
+    if (!(hz >= from[0] - rounding && hz <= from[measured - 1] + rounding)) {
+      throw InvalidArgument("line at " + std::to_string(hz) + " Hz: expected the measured band, " +
+                            std::to_string(from[0]) + " to " + std::to_string(from[measured - 1]) + " Hz");
+    }
+    const Eigen::Index above = std::min<Eigen::Index>(
+        std::lower_bound(from.begin(), from.end(), hz - rounding) - from.begin(), measured - 1);
+    const bool same = std::abs(from[above] - hz) <= rounding;
+    // The nodes of the cubic, and the two neighbours.
+    const Eigen::Index count = std::min<Eigen::Index>(4, measured);
+    const Eigen::Index first = std::clamp<Eigen::Index>(above - 2, 0, measured - count);
+    for (std::size_t e = 0; e < frf.entries.size(); ++e) {
+      const auto& entry = frf.entries[e];
+      auto& target = result.entries[e];
+      std::complex<double> value = entry.h[above];
+      if (!same) {
+        value = 0;
+        for (Eigen::Index a = first; a < first + count; ++a) {
+          double weight = 1;
+          for (Eigen::Index b = first; b < first + count; ++b)
+            if (b != a) weight *= (hz - from[b]) / (from[a] - from[b]);
+          value += weight * entry.h[a];
+        }
+      }
+      target.h[i] = value;
+      if (entry.variance.size() == 0) continue;
+      const double share = same ? 1 : (hz - from[above - 1]) / (from[above] - from[above - 1]);
+      target.variance[i] =
+          share * entry.variance[above] + (same ? 0 : (1 - share) * entry.variance[above - 1]);
+    }
+  }
+  return result;
+}
+
+Eigen::VectorXd known_variance(const FrequencyResponseEntry& entry) {
+  if (entry.variance.size() > 0 || entry.coherence.size() == 0) return entry.variance;
+  // Var H1 = (1 - coherence) / (2 averages coherence) |H|^2 for each part.
+  const Eigen::ArrayXd coherence = entry.coherence.array().max(1e-6);
+  return (1 - coherence) / (coherence * entry.averages.value_or(1)) * entry.h.array().abs2();
 }
 
 }  // namespace stablecut

@@ -41,4 +41,13 @@ FrequencyResponse to_receptance(FrequencyResponse frf);
 /// The lines with lo_hz <= frequency <= hi_hz. May be empty.
 FrequencyResponse within_band(const FrequencyResponse& frf, double lo_hz, double hi_hz);
 
+/// The same on other lines (Hz, increasing): where a line was measured its values, between lines a cubic
+/// through the four nearest. Variances likewise but linear; coherences are left out. Throws InvalidArgument
+/// for lines outside the measured band.
+FrequencyResponse on_lines(const FrequencyResponse& frf, const Eigen::VectorXd& frequency_hz);
+
+/// Variance of an entry's complex values, given or by its coherence (Bendat and Piersol); empty when neither
+/// is known.
+Eigen::VectorXd known_variance(const FrequencyResponseEntry& entry);
+
 }  // namespace stablecut

@@ -49,16 +49,8 @@ std::vector<std::string> group_directions(const FrequencyResponse& measured, con
 std::vector<Eigen::VectorXd> known_variances(const FrequencyResponse& measured, const DirectionGroup& group) {
   std::vector<Eigen::VectorXd> result;
   for (const std::size_t e : group.entries) {
-    const auto& entry = measured.entries[e];
-    if (entry.variance.size() > 0) {
-      result.push_back(entry.variance);
-    } else if (entry.coherence.size() > 0) {
-      // Var H1 = (1 - coherence) / (2 averages coherence) |H|^2 for each part (Bendat and Piersol).
-      const Eigen::ArrayXd coherence = entry.coherence.array().max(1e-6);
-      result.push_back((1 - coherence) / (coherence * entry.averages.value_or(1)) * entry.h.array().abs2());
-    } else {
-      return {};
-    }
+    result.push_back(known_variance(measured.entries[e]));
+    if (result.back().size() == 0) return {};
   }
   return result;
 }

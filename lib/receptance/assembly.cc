@@ -63,7 +63,8 @@ Receptance<4> Assembly::tip(Eigen::Index line) const {
 Receptance<4> Assembly::along_tool(Eigen::Index line, double response_m, double reference_m) const {
   const double omega = rad_per_s_from_hz(frequency_hz[line]);
   if (couples_directions) {
-    Receptance<4> holder = held_chain<4>(held[0].segments, theory, omega, given[static_cast<std::size_t>(line)]);
+    Receptance<4> holder =
+        held_chain<4>(held[0].segments, theory, omega, given[static_cast<std::size_t>(line)]);
     holder.topLeftCorner<2, 2>() += joint_receptance(held[0].joint, omega);
     holder.bottomRightCorner<2, 2>() += joint_receptance(held[1].joint, omega);
     return receptance_along<4>(tool, theory, omega, holder, response_m, reference_m);

@@ -180,7 +180,8 @@ Receptance<N> held_receptance(const BeamSegment& segment, BeamTheory theory, dou
     const Eigen::Matrix2cd even_of_movement{{1, 0}, {0, 0}}, even_of_load{{0, 0}, {0, 1.0 / w.bending}};
     const Eigen::Matrix2cd odd_of_movement{{0, 1}, {0, -w.b}},
         odd_of_load{{w.a / w.inertia, 0}, {-1.0 / w.bending, 0}};
-    const auto at_end_1 = [&](const Eigen::Matrix2cd& of_even, const Eigen::Matrix2cd& of_odd) -> Receptance<N> {
+    const auto at_end_1 = [&](const Eigen::Matrix2cd& of_even,
+                              const Eigen::Matrix2cd& of_odd) -> Receptance<N> {
       return in_all_directions<N>(of_even * even_of_movement + of_odd * odd_of_movement) * holder +
              in_all_directions<N>(of_even * even_of_load + of_odd * odd_of_load);
     };

@@ -7,10 +7,10 @@
 
 namespace stablecut {
 
-/// Deflection (m) and slope (rad) per force (N) and moment (N m), in one direction (N = 2: [[h, l], [n, p]]) or
-/// in x and y (N = 4: w_x, slope_x, w_y, slope_y). The slope is d(deflection)/ds with s from the joint (end 2)
-/// towards the tip (end 1), a moment acts in its sense. In Timoshenko's theory the slope is the rotation of
-/// the section.
+/// Deflection (m) and slope (rad) per force (N) and moment (N m), in one direction (N = 2: [[h, l], [n, p]])
+/// or in x and y (N = 4: w_x, slope_x, w_y, slope_y). The slope is d(deflection)/ds with s from the joint
+/// (end 2) towards the tip (end 1), a moment acts in its sense. In Timoshenko's theory the slope is the
+/// rotation of the section.
 template <int N>
 using Receptance = Eigen::Matrix<std::complex<double>, N, N>;
 

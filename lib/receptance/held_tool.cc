@@ -77,7 +77,8 @@ Receptance<N> mass_matrix(double mass_kg, double omega) {
 }  // namespace
 
 template <int N>
-Receptance<N> held_chain(const BeamChain& chain, BeamTheory theory, double omega, const Receptance<N>& inner) {
+Receptance<N> held_chain(const BeamChain& chain, BeamTheory theory, double omega,
+                         const Receptance<N>& inner) {
   Receptance<N> held = inner;
   for (std::size_t i = chain.size(); i-- > 0;) held = held_receptance<N>(chain[i], theory, omega, held);
   return held;
@@ -140,23 +141,23 @@ Receptance<2> free_response_to_end(const BeamChain& tool, BeamTheory theory, dou
   return at_cut * (at_cut + near_end.r11).inverse() * near_end.r12;
 }
 
-Receptance<2> free_receptance_along(const BeamChain& tool, BeamTheory theory, double omega,
-                                    double response_m, double reference_m) {
+Receptance<2> free_receptance_along(const BeamChain& tool, BeamTheory theory, double omega, double response_m,
+                                    double reference_m) {
   // At the very end nothing lies inwards: the outer part is the whole.
   const auto whole = [&](double distance_m) { return cut_at(tool, distance_m).second.empty(); };
   if (whole(reference_m)) return free_response_to_end(tool, theory, omega, response_m);
   if (whole(response_m)) return free_response_to_end(tool, theory, omega, reference_m).transpose();
-  return between<2>(tool, theory, omega, response_m, reference_m, [&](const BeamChain& inner) -> Receptance<2> {
-    return free_chain(inner, theory, omega).r11;
-  });
+  return between<2>(
+      tool, theory, omega, response_m, reference_m,
+      [&](const BeamChain& inner) -> Receptance<2> { return free_chain(inner, theory, omega).r11; });
 }
 
-#define STABLECUT_FOR_DIRECTIONS(N)                                                                        \
-  template Receptance<N> held_chain<N>(const BeamChain&, BeamTheory, double, const Receptance<N>&);        \
-  template JointPlane<N> joint_plane<N>(const BeamChain&, BeamTheory, double, const Receptance<N>&);       \
-  template JointPlane<N> with_tip_mass<N>(const JointPlane<N>&, double, double);                           \
-  template Receptance<N> with_mass<N>(const Receptance<N>&, double, double);                               \
-  template Receptance<N> receptance_along<N>(const BeamChain&, BeamTheory, double, const Receptance<N>&,   \
+#define STABLECUT_FOR_DIRECTIONS(N)                                                                      \
+  template Receptance<N> held_chain<N>(const BeamChain&, BeamTheory, double, const Receptance<N>&);      \
+  template JointPlane<N> joint_plane<N>(const BeamChain&, BeamTheory, double, const Receptance<N>&);     \
+  template JointPlane<N> with_tip_mass<N>(const JointPlane<N>&, double, double);                         \
+  template Receptance<N> with_mass<N>(const Receptance<N>&, double, double);                             \
+  template Receptance<N> receptance_along<N>(const BeamChain&, BeamTheory, double, const Receptance<N>&, \
                                              double, double);
 STABLECUT_FOR_DIRECTIONS(2)
 STABLECUT_FOR_DIRECTIONS(4)

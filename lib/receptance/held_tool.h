@@ -21,8 +21,8 @@ BeamReceptances free_chain(const BeamChain& chain, BeamTheory theory, double ome
 
 /// Tool and holder as their joint sees them. For a load F at the tip and an opening g of the joint,
 ///   tip = rigid_tip F + of_opening g,   load through the joint = transmitted F - stiffness g,
-/// so that a joint of stiffness Kc gives the tip rigid_tip + of_opening (Kc + stiffness)^-1 transmitted. It is
-/// eq. 6 with (R22 + H + Kc^-1)^-1 split into what does not depend on the joint and what does; nothing
+/// so that a joint of stiffness Kc gives the tip rigid_tip + of_opening (Kc + stiffness)^-1 transmitted. It
+/// is eq. 6 with (R22 + H + Kc^-1)^-1 split into what does not depend on the joint and what does; nothing
 /// cancels at low frequency.
 template <int N>
 struct JointPlane {

@@ -69,8 +69,7 @@ TEST_CASE("through a joint: as the joint sees it, or by coupling, the same tip")
   for (const BeamTheory theory : kBoth) {
     for (const double f : {50.0, 800.0, 5000.0}) {
       const double omega = rad_per_s_from_hz(f);
-      for (const Receptance<2>& holder :
-           {fixed_free_receptance(bar(50.90), theory, omega), some_holder()}) {
+      for (const Receptance<2>& holder : {fixed_free_receptance(bar(50.90), theory, omega), some_holder()}) {
         Receptance<2> with_joint = holder;
         with_joint.diagonal() += joint.stiffness(omega).cwiseInverse();
         const Receptance<2> coupled = coupled_tip<2>(free_chain(stepped(), theory, omega), with_joint);
@@ -108,12 +107,12 @@ TEST_CASE("a mass on the tip: a short heavy stub, on the tip and as the joint se
   for (const double f : {100.0, 700.0, 3000.0}) {
     const double omega = rad_per_s_from_hz(f);
     const JointPlane<2> plane = joint_plane<2>(stepped(), theory, omega, some_holder());
-    const std::complex<double> with =
-        with_tip_mass<2>(plane, 0.02, omega).tip(joint.stiffness(omega))(0, 0);
+    const std::complex<double> with = with_tip_mass<2>(plane, 0.02, omega).tip(joint.stiffness(omega))(0, 0);
     const Receptance<2> bare = plane.tip(joint.stiffness(omega));
     CHECK(std::abs(with - with_mass<2>(bare, 0.02, omega)(0, 0)) < 1e-12 * std::abs(with));
     CHECK((with_mass<2>(with_mass<2>(bare, 0.02, omega), -0.02, omega) - bare).norm() < 1e-12 * bare.norm());
-    const std::complex<double> stubbed = held_chain<2>({stub}, BeamTheory::kEulerBernoulli, omega, bare)(0, 0);
+    const std::complex<double> stubbed =
+        held_chain<2>({stub}, BeamTheory::kEulerBernoulli, omega, bare)(0, 0);
     CHECK(std::abs(with - stubbed) < 3e-3 * std::abs(with));
     CHECK(std::abs(with - bare(0, 0)) > 1e-3 * std::abs(with));
   }

@@ -19,24 +19,25 @@ using Complex = std::complex<double>;
 
 constexpr Eigen::Index kLeastLines = 4;
 // The scan: lines it looks at, values of a stiffness in a decade, loss tangents at the middle of the band.
-constexpr Eigen::Index kScanLines = 300;
+constexpr Eigen::Index kScanLines = 200;
 constexpr double kPerDecade = 8;
 constexpr std::array<double, 4> kLossTangents = {0, 0.01, 0.1, 1};
-constexpr int kLinearSteps = 3;
+constexpr int kLinearSteps = 2;
 constexpr std::size_t kInTurns = 40;
 constexpr int kTurns = 6;
 // What is tried further, on how many lines and in how many steps, and what of that is carried to the end.
 constexpr Eigen::Index kTrialLines = 800;
 constexpr std::size_t kTrials = 10, kFinalists = 3;
 constexpr int kTrialSteps = 15, kFinalSteps = 200;
-constexpr int kBoundRounds = 8;  // sets of values held at their bounds
+constexpr int kBoundRounds = 8;         // sets of values held at their bounds
+constexpr double kShareFloor = 0.01;    // of the weights that look at every line by its share
 constexpr double kSameStart = 0.2;      // distance in log stiffness
 constexpr double kDampingShare = 1e-3;  // of k / w: a damping below this is nearly none
 constexpr double kMostDeviation = 0.3;  // of a value that is identifiable
 constexpr double kNormal95 = 1.96;
-constexpr double kRounding = 1e-14;      // share of the curve's size below which nothing is noise
-constexpr double kWhite = 2;             // correlation length up to which a residual is noise
-constexpr double kBoundShare = 1e-9;     // distance in logarithms at which a value lies on its bound
+constexpr double kRounding = 1e-14;   // share of the curve's size below which nothing is noise
+constexpr double kWhite = 2;          // correlation length up to which a residual is noise
+constexpr double kBoundShare = 1e-9;  // distance in logarithms at which a value lies on its bound
 
 // What a line's tip is made of: displacement per force.
 struct Line {
@@ -194,7 +195,8 @@ std::vector<Start> starts(const Lines& all, const JointBounds& bounds, JointObje
         const double c = std::clamp(tangent * k / omega, bounds.least[scanned + 1], bounds.most[scanned + 1]);
         for (const bool stiff : {false, true}) {
           const double other = stiff ? bounds.most[2 - scanned] : 0;
-          found.push_back(judged(scanned == 0 ? second_solved({k, c, other, 0}) : first_solved({other, 0, k, c})));
+          found.push_back(
+              judged(scanned == 0 ? second_solved({k, c, other, 0}) : first_solved({other, 0, k, c})));
         }
       }
     }
@@ -303,7 +305,8 @@ Start refined(const Lines& lines, const ToolJoint& start, const JointBounds& bou
       const auto at = static_cast<std::size_t>(i);
       problem.SetParameterLowerBound(u.data(), i, least[at]);
       problem.SetParameterUpperBound(u.data(), i, most[at]);
-      if ((u[at] - least[at] < kBoundShare && slope[at] > 0) || (most[at] - u[at] < kBoundShare && slope[at] < 0))
+      if ((u[at] - least[at] < kBoundShare && slope[at] > 0) ||
+          (most[at] - u[at] < kBoundShare && slope[at] < 0))
         holding.push_back(i);
     }
     if (holding.size() == 4 || (round > 0 && holding == held)) break;
@@ -325,6 +328,10 @@ Start refined(const Lines& lines, const ToolJoint& start, const JointBounds& bou
 Start best_joint(const Lines& lines, const JointBounds& bounds, JointObjective objective) {
   const Lines few = thinned(lines, kTrialLines);
   std::vector<Start> trials = starts(lines, bounds, objective);
+  // A few lines on sharp peaks may outweigh all others: once more with every line by its share.
+  Lines by_share = lines;
+  for (Line& line : by_share) line.weight = 1 / std::max(std::abs(line.measured), kShareFloor / line.weight);
+  for (const Start& start : starts(by_share, bounds, objective)) trials.push_back(start);
   for (Start& trial : trials) trial = refined(few, trial.joint, bounds, objective, kTrialSteps);
   trials = best_of(std::move(trials), kFinalists);
   for (Start& trial : trials) trial = refined(lines, trial.joint, bounds, objective, kFinalSteps);
@@ -374,8 +381,8 @@ void set_deviations(const Lines& lines, const JointBounds& bounds, JointObjectiv
   // brings less than its length.
   const double parts = objective == JointObjective::kAmplitude ? 1 : 2;
   const double numbers = parts * static_cast<double>(lines.size());
-  double variance = std::max(residual.squaredNorm(), floor) / std::max(1.0, numbers - 4.0) *
-                    correlation_length(residual);
+  double variance =
+      std::max(residual.squaredNorm(), floor) / std::max(1.0, numbers - 4.0) * correlation_length(residual);
   if (known_noise) variance = std::max(variance, 1 / parts);
   const Eigen::MatrixXd reduced = information(open, open);
   const Eigen::VectorXd scale = reduced.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
@@ -399,7 +406,8 @@ void check(const JointData& data, const JointBounds& bounds) {
   for (std::size_t i = 0; i < 4; ++i) {
     const bool stiffness = i % 2 == 0;
     if (!(bounds.least[i] < bounds.most[i] && (stiffness ? bounds.least[i] > 0 : bounds.least[i] >= 0))) {
-      throw InvalidArgument("bounds: expected increasing ones, above 0 for k1 and k2, not below 0 for c1 and c2");
+      throw InvalidArgument(
+          "bounds: expected increasing ones, above 0 for k1 and k2, not below 0 for c1 and c2");
     }
   }
 }

@@ -1,5 +1,5 @@
-// The joint between tool and holder from a measured tip receptance (Liu et al., section 2, by least squares in
-// place of the genetic algorithm).
+// The joint between tool and holder from a measured tip receptance (Liu et al., section 2, by least squares
+// in place of the genetic algorithm).
 #pragma once
 
 #include <array>
@@ -26,17 +26,17 @@ enum class JointObjective {
 
 /// The tip as it was measured and as tool and holder would make it, line by line, in one direction.
 struct JointData {
-  Eigen::VectorXd omega_rad_per_s;     ///< [lines]
-  std::vector<JointPlane<2>> plane;    ///< [lines]
-  Eigen::VectorXcd tip;                ///< [lines] measured, displacement per force, m/N
-  Eigen::VectorXd variance;            ///< [lines] of the complex value, both parts together; empty: unknown
+  Eigen::VectorXd omega_rad_per_s;   ///< [lines]
+  std::vector<JointPlane<2>> plane;  ///< [lines]
+  Eigen::VectorXcd tip;              ///< [lines] measured, displacement per force, m/N
+  Eigen::VectorXd variance;          ///< [lines] of the complex value, both parts together; empty: unknown
 };
 
 struct JointEstimate {
   ToolJoint joint;
   JointValues deviation{};  ///< standard deviations; of values at a bound 0
-  /// The standard deviation is at most 30 % of the value, and would be so of the lower end of the value's 95 %
-  /// interval. A value at its bound never is.
+  /// The standard deviation is at most 30 % of the value, and would be so of the lower end of the value's 95
+  /// % interval. A value at its bound never is.
   std::array<bool, 4> identifiable{};
   std::array<bool, 4> at_bound{};
   double residual = 0;   ///< |H - H_measured| / |H_measured|, norms over the lines

@@ -20,10 +20,11 @@ const JointBounds kPaperBounds{{1e5, 0, 1e5, 0}, {1e8, 100, 1e8, 100}};
 JointData section_3(double step_hz = 1) {
   JointData data;
   const auto lines = static_cast<Eigen::Index>(5000 / step_hz);
-  data.omega_rad_per_s = rad_per_s_from_hz(step_hz) * Eigen::VectorXd::LinSpaced(lines, 1, static_cast<double>(lines));
+  data.omega_rad_per_s =
+      rad_per_s_from_hz(step_hz) * Eigen::VectorXd::LinSpaced(lines, 1, static_cast<double>(lines));
   for (const double omega : data.omega_rad_per_s) {
-    data.plane.push_back(joint_plane<2>({bar(118.92)}, kTheory, omega,
-                                        fixed_free_receptance(bar(50.90), kTheory, omega)));
+    data.plane.push_back(
+        joint_plane<2>({bar(118.92)}, kTheory, omega, fixed_free_receptance(bar(50.90), kTheory, omega)));
   }
   return data;
 }
@@ -55,8 +56,7 @@ Eigen::Vector4d cramer_rao(const JointData& data, const ToolJoint& joint, double
     jacobian.col(static_cast<Eigen::Index>(i)) =
         (tip_with(data, joint_of(up)) - tip_with(data, joint_of(down))) / 2e-4;
   }
-  const Eigen::Matrix4d information =
-      2 * (jacobian.adjoint() * jacobian).real() / (deviation * deviation);
+  const Eigen::Matrix4d information = 2 * (jacobian.adjoint() * jacobian).real() / (deviation * deviation);
   return information.inverse().diagonal().cwiseSqrt();
 }
 
@@ -144,7 +144,8 @@ TEST_CASE("no start is missed: random joints over seven decades, with and withou
     const ToolJoint joint{k1, std::pow(10, tangent(random)) * k1 / 2000, k2,
                           std::pow(10, tangent(random)) * k2 / 2000};
     data.tip = tip_with(data, joint);
-    const double deviation = (run % 2) * 0.01 * data.tip.norm() / std::sqrt(static_cast<double>(data.tip.size()));
+    const double deviation =
+        (run % 2) * 0.01 * data.tip.norm() / std::sqrt(static_cast<double>(data.tip.size()));
     const Eigen::VectorXcd exact = data.tip;
     add_noise(data.tip, deviation, random);
     const JointEstimate estimate = identify_joint(data, {}, JointObjective::kComplex);

@@ -1,0 +1,69 @@
+#include "document/tool_joint.h"
+
+#include "document/assembly.h"
+#include "document/node.h"
+
+namespace stablecut {
+namespace {
+
+Json estimate_to_json(const JointEstimate& estimate, JointObjective objective) {
+  Json item, deviation;
+  const JointValues values = values_of(estimate.joint);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    item[kJointFields[i]] = values[i];
+    deviation[kJointFields[i]] = estimate.at_bound[i] ? Json(nullptr) : Json(estimate.deviation[i]);
+  }
+  item["std"] = deviation;
+  item["identifiable"] = estimate.identifiable;
+  item["at_bound"] = estimate.at_bound;
+  item["residual"] = estimate.residual;
+  item["objective"] = {{"name", objective_name(objective)}, {"value_m_per_n", estimate.objective}};
+  return item;
+}
+
+ToolJoint joint_at(const Node& node) {
+  node.check_names({"format", "direction", "lines", "band_hz", "k1_n_per_m", "c1_n_s_per_m", "k2_n_m_per_rad",
+                    "c2_n_m_s_per_rad", "std", "identifiable", "at_bound", "residual", "objective",
+                    "provenance"});
+  return tool_joint_from(node);
+}
+
+}  // namespace
+
+const std::array<const char*, 4> kJointFields = {"k1_n_per_m", "c1_n_s_per_m", "k2_n_m_per_rad",
+                                                 "c2_n_m_s_per_rad"};
+
+const char* objective_name(JointObjective objective) {
+  return objective == JointObjective::kAmplitude ? "amplitude" : "complex";
+}
+
+Json tool_joint_to_json(const ToolJointDocument& document) {
+  Json result = {{"format", "stablecut/tool-joint/1"},
+                 {"lines", document.lines},
+                 {"band_hz", {document.lo_hz, document.hi_hz}}};
+  const bool both = document.estimate[0] && document.estimate[1];
+  for (std::size_t d = 0; d < 2; ++d) {
+    if (!document.estimate[d]) continue;
+    const char* name = d == 0 ? "x" : "y";
+    const Json item = estimate_to_json(*document.estimate[d], document.objective);
+    if (both) {
+      result[name] = item;
+    } else {
+      result["direction"] = name;
+      result.update(item);
+    }
+  }
+  return result;
+}
+
+std::array<ToolJoint, 2> tool_joints_from_json(const Json& document, const Source& source) {
+  const Node root = document_root(document, source, "tool-joint");
+  if (!root.has("x") && !root.has("y")) {
+    const ToolJoint joint = joint_at(root);
+    return {joint, joint};
+  }
+  root.check_names({"format", "lines", "band_hz", "x", "y", "provenance"});
+  return {joint_at(root.at("x")), joint_at(root.at("y"))};
+}
+
+}  // namespace stablecut
