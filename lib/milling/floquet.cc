@@ -30,7 +30,7 @@ Eigen::VectorXcd eigenvector(const Eigen::MatrixXd& matrix, Complex value) {
 }  // namespace
 
 double spectral_radius(const PeriodMap& map, double depth_m) {
-  return eigenvalues(map.monodromy(depth_m)).cwiseAbs().maxCoeff();
+  return largest_modulus(map.monodromy(depth_m), 2 * map.structure().modes());
 }
 
 CriticalMultiplier critical_multiplier(const PeriodMap& map, double depth_m) {

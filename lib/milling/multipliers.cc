@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <vector>
 
 #include "base/error.h"
 
@@ -180,16 +181,149 @@ class HessenbergQr {
   double norm_;
 };
 
+void check_finite(const Eigen::MatrixXd& matrix) {
+  if (!matrix.allFinite())
+    throw InvalidArgument("the period's map is not finite: expected modes and depths of a usual size");
+}
+
+Eigen::VectorXcd hessenberg_eigenvalues(const RowMatrix& hessenberg) {
+  Eigen::VectorXcd values;
+  if (HessenbergQr(hessenberg).run(values)) return values;
+  return Eigen::EigenSolver<Eigen::MatrixXd>(hessenberg, false).eigenvalues();
+}
+
+// Norm of what is not reduced yet, over the norm of what is, at which the largest modulus is looked for, and
+// over that modulus, at which it is ignored.
+constexpr double kTried = 0.02, kIgnored = 0.4;
+constexpr Eigen::Index kNextStop = 2;  // columns between a stop and the next that has to agree
+constexpr double kAgreement = 1e-11;   // of two stops
+constexpr double kRivals = 0.98;       // share of the largest modulus from which on values are followed
+constexpr int kNewtonSteps = 3;
+constexpr double kWorthStopping = 0.75;  // share of the rows from which on the whole costs as little
+
+// Deterministic whatever the vectors' width: eight partial sums.
+inline double dot(const double* __restrict a, const double* __restrict b, Eigen::Index count) {
+  double part[8] = {};
+  Eigen::Index i = 0;
+  for (; i + 8 <= count; i += 8) {
+    for (Eigen::Index l = 0; l < 8; ++l) part[l] += a[i + l] * b[i + l];
+  }
+  double sum = 0;
+  for (; i < count; ++i) sum += a[i] * b[i];
+  for (const double p : part) sum += p;
+  return sum;
+}
+
+inline void add(double factor, const double* __restrict from, double* __restrict to, Eigen::Index count) {
+  for (Eigen::Index i = 0; i < count; ++i) to[i] += factor * from[i];
+}
+
+// Q A Q with the reflection Q = I - 2 v v^T / v^T v on the last `count` rows and columns of the n x n matrix
+// at `a`, by columns; those before `first` need no rows reflected. `work` holds n numbers.
+__attribute__((target_clones("avx512f", "avx2", "default"))) void reflect(double* a, Eigen::Index n,
+                                                                          const double* v, Eigen::Index count,
+                                                                          Eigen::Index first, double* work) {
+  const double size = dot(v, v, count);
+  if (size == 0) return;
+  for (Eigen::Index c = first; c < n; ++c) {
+    double* column = a + c * n + (n - count);
+    add(-2 / size * dot(v, column, count), v, column, count);
+  }
+  std::fill(work, work + n, 0.0);
+  for (Eigen::Index c = 0; c < count; ++c) add(v[c], a + (n - count + c) * n, work, n);
+  for (Eigen::Index c = 0; c < count; ++c) add(-2 / size * v[c], work, a + (n - count + c) * n, n);
+}
+
+// Column k to one entry below its diagonal. `v` and `work` hold n numbers.
+void reduce_column(Eigen::MatrixXd& a, Eigen::Index k, double* v, double* work) {
+  const Eigen::Index n = a.rows(), count = n - k - 1;
+  auto column = a.col(k).tail(count);
+  if (column.tail(count - 1).isZero(0)) return;
+  std::copy(column.begin(), column.end(), v);
+  const double norm = std::copysign(column.norm(), v[0]);
+  v[0] += norm;
+  reflect(a.data(), n, v, count, k + 1, work);
+  column.setZero();
+  column[0] = -norm;
+}
+
+// An eigenvalue of the leading Hessenberg block of that size, from one nearby: Newton's method on what is
+// left of the first equation when the others are solved from the last (Hyman). Not finite where a subdiagonal
+// is zero.
+std::complex<double> followed(const Eigen::MatrixXd& h, Eigen::Index size, std::complex<double> value) {
+  Eigen::VectorXcd x(size), slope(size);  // the vector, and its derivative by the eigenvalue
+  for (int step = 0; step < kNewtonSteps; ++step) {
+    x.setZero();
+    slope.setZero();
+    x[size - 1] = 1;
+    std::complex<double> rest, rest_slope;
+    for (Eigen::Index row = size - 1; row >= 0; --row) {
+      rest = -value * x[row];
+      rest_slope = -x[row] - value * slope[row];
+      for (Eigen::Index c = row; c < size; ++c) {
+        rest += h(row, c) * x[c];
+        rest_slope += h(row, c) * slope[c];
+      }
+      if (row == 0) break;
+      x[row - 1] = -rest / h(row, row - 1);
+      slope[row - 1] = -rest_slope / h(row, row - 1);
+    }
+    const std::complex<double> change = rest / rest_slope;
+    value -= change;
+    if (std::abs(change) <= kEpsilon * std::abs(value)) break;
+  }
+  return value;
+}
+
 }  // namespace
 
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) {
-  if (!matrix.allFinite())
-    throw InvalidArgument("the period's map is not finite: expected modes and depths of a usual size");
+  check_finite(matrix);
   if (matrix.rows() == 1) return matrix.cast<std::complex<double>>();
-  const RowMatrix hessenberg = Eigen::HessenbergDecomposition<Eigen::MatrixXd>(matrix).matrixH();
-  Eigen::VectorXcd values;
-  if (HessenbergQr(hessenberg).run(values)) return values;
-  return Eigen::EigenSolver<Eigen::MatrixXd>(matrix, false).eigenvalues();
+  return hessenberg_eigenvalues(Eigen::HessenbergDecomposition<Eigen::MatrixXd>(matrix).matrixH());
+}
+
+double largest_modulus(Eigen::MatrixXd a, Eigen::Index states) {
+  check_finite(a);
+  const Eigen::Index n = a.rows(), rest = n - states;
+  if (n == 1) return std::abs(a(0, 0));
+  const double out = a.topRightCorner(states, rest).norm(), back = a.bottomLeftCorner(rest, states).norm();
+  if (out > 0 && back > 0) {
+    const double ratio = std::sqrt(back / out);
+    a.topRightCorner(states, rest) *= ratio;
+    a.bottomLeftCorner(rest, states) /= ratio;
+  }
+  // The basis begins with a vector that has a part of everything.
+  Eigen::VectorXd v = Eigen::VectorXd::Ones(n), work(n);
+  v[0] += std::sqrt(static_cast<double>(n));
+  reflect(a.data(), n, v.data(), n, 0, work.data());
+  std::vector<std::complex<double>> found;  // the largest and its rivals, of the stop before
+  Eigen::Index stopped = 0;
+  for (Eigen::Index size = 1; size + 1 < n; ++size) {
+    reduce_column(a, size - 1, v.data(), work.data());
+    // Before the basis holds as much as the states the rest is not small.
+    if (size < states || static_cast<double>(size) > kWorthStopping * static_cast<double>(n) ||
+        size < stopped + kNextStop)
+      continue;
+    const double left = a.bottomRightCorner(n - size, n - size).norm();
+    double largest = 0;
+    bool agree = !found.empty();
+    for (const auto value : found) {
+      const auto now = followed(a, size, value);
+      agree = agree && std::abs(now - value) <= kAgreement * std::max(1.0, std::abs(now));
+      largest = std::max(largest, std::abs(now));
+    }
+    if (agree && left <= kIgnored * largest) return largest;
+    if (left > kTried * a.topLeftCorner(size, size).norm()) continue;
+    const Eigen::VectorXcd values = hessenberg_eigenvalues(a.topLeftCorner(size, size));
+    largest = values.cwiseAbs().maxCoeff();
+    found.clear();
+    for (const auto& value : values) {
+      if (value.imag() >= 0 && std::abs(value) >= kRivals * largest) found.push_back(value);
+    }
+    stopped = size;
+  }
+  return hessenberg_eigenvalues(a).cwiseAbs().maxCoeff();
 }
 
 }  // namespace stablecut

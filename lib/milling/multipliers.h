@@ -11,4 +11,14 @@ namespace stablecut {
 /// stalls (not seen), the Schur form decides. Throws InvalidArgument when an entry is not finite.
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
 
+/// The largest modulus among the eigenvalues of [states | rest], a matrix whose first `states` rows and
+/// columns are in other units than the rest.
+///
+/// Both parts are brought to one size, and the Hessenberg reduction (an orthonormal Krylov basis, from a
+/// vector without preference) stops early: when what is not reduced yet has a norm well below the largest
+/// modulus found, it can hold no larger one, and when two stops agree to 1e-11 of max(1, modulus), what
+/// couples it does not matter. A compact map of few modes needs little more than their states. Throws
+/// InvalidArgument when an entry is not finite.
+double largest_modulus(Eigen::MatrixXd matrix, Eigen::Index states);
+
 }  // namespace stablecut

@@ -55,3 +55,36 @@ TEST_CASE("rotations, zero, identity, companion and permutation matrices") {
   shift(0, 0) = 0.9967;
   CHECK(eigenvalues(shift).cwiseAbs().maxCoeff() == Approx(0.9967).epsilon(1e-13));
 }
+
+TEST_CASE("the largest modulus: early stops agree with all eigenvalues") {
+  std::mt19937_64 generator(5);
+  std::normal_distribution<double> normal;
+  const auto random = [&](Eigen::Index rows, Eigen::Index columns) {
+    return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return normal(generator); }).eval();
+  };
+  for (const Eigen::Index n : {1, 2, 3, 12, 40}) {
+    for (int trial = 0; trial < 20; ++trial) {
+      const Eigen::MatrixXd matrix = random(n, n);
+      CHECK(largest_modulus(matrix, (n + 1) / 2) ==
+            Approx(eigenvalues(matrix).cwiseAbs().maxCoeff()).epsilon(1e-11).margin(1e-12));
+    }
+  }
+  // Few states and a quickly falling rest, in units that differ by 1e6; two structures that do not touch, of
+  // which the start may see more of the weaker one.
+  for (int trial = 0; trial < 200; ++trial) {
+    const Eigen::Index n = 50, states = 8;
+    Eigen::MatrixXd matrix = random(n, n);
+    for (Eigen::Index i = states; i < n; ++i) matrix.row(i) *= std::pow(0.6, static_cast<double>(i - states));
+    if (trial % 2 == 1) {
+      matrix.topRightCorner(n / 2, n / 2).setZero();
+      matrix.bottomLeftCorner(n / 2, n / 2).setZero();
+      matrix(n - 1, n - 1) = 9;
+    }
+    const double expected = eigenvalues(matrix).cwiseAbs().maxCoeff();
+    matrix.topRightCorner(states, n - states) *= 1e-6;
+    matrix.bottomLeftCorner(n - states, states) *= 1e6;
+    CHECK(largest_modulus(matrix, states) == Approx(expected).epsilon(1e-10));
+  }
+  CHECK(largest_modulus(Eigen::MatrixXd::Zero(5, 5), 2) == 0);
+  CHECK(largest_modulus(Eigen::MatrixXd::Identity(9, 9), 4) == Approx(1).epsilon(1e-14));
+}

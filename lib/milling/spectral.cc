@@ -82,6 +82,7 @@ SpectralMap::SpectralMap(const TipStructure& structure, const Cutter& cutter, do
   final_state_of_drive_.resize(2 * n, rows);
   final_state_of_state_ = structure.free_flight(period_s());
 
+  std::vector<Eigen::MatrixXcd> responses;  // of the mode, [arcs]
   for (Eigen::Index k = 0; k < n; ++k) {
     const Complex lambda = structure.lambda[k];
     // What the nodes sense of the mode, and how they drive it.
@@ -95,8 +96,14 @@ SpectralMap::SpectralMap(const TipStructure& structure, const Cutter& cutter, do
       sensed_of_state_.col(k).segment(first[i], first[i + 1] - first[i]) = value.real();
       sensed_of_state_.col(n + k).segment(first[i], first[i + 1] - first[i]) = -value.imag();
     }
+    // Modes of one pole (a round tool's in x and in y) respond alike.
+    if (k == 0 || lambda != structure.lambda[k - 1]) {
+      responses.clear();
+      for (const TimedArc& arc : arcs)
+        responses.push_back(mode_response(lambda, arc.length_s, rule, transform));
+    }
     for (std::size_t b = 0; b < arcs.size(); ++b) {
-      const Eigen::MatrixXcd response = mode_response(lambda, arcs[b].length_s, rule, transform);
+      const Eigen::MatrixXcd& response = responses[b];
       const double end_s = arcs[b].start_s + arcs[b].length_s;
       const Complex to_final = std::exp(lambda * (period_s() - end_s));
       const std::size_t arc_first = b * points, arc_last = arc_first + points;

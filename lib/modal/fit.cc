@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <memory>
 
 #include "base/error.h"
 #include "base/units.h"
@@ -101,6 +102,21 @@ std::optional<int> wanted_modes(const FitOptions& options, std::size_t groups, s
   return std::max(1, *options.modes / count + (static_cast<int>(group) < *options.modes % count ? 1 : 0));
 }
 
+// A group that has been fitted, and what it was fitted to.
+struct FittedGroup {
+  std::optional<int> wanted;
+  std::vector<Eigen::VectorXd> variance;
+  std::shared_ptr<ModeSearch> search;
+};
+
+// The same curves between the same directions of a group.
+bool alike(const FitData& a, const FitData& b) {
+  return std::equal(a.curves.begin(), a.curves.end(), b.curves.begin(), b.curves.end(),
+                    [](const Curve& p, const Curve& q) {
+                      return p.response == q.response && p.reference == q.reference && p.h == q.h;
+                    });
+}
+
 }  // namespace
 
 ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options) {
@@ -118,14 +134,25 @@ ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options)
   fit.converged = true;
   bool by_reciprocity = false;
   double chi_square = 0, values = 0, error_square = 0, square = 0;
+  std::vector<FittedGroup> fitted;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const DirectionGroup& group = groups[g];
     const std::vector<std::string> directions = group_directions(measured, group, fit.model.dofs);
-    std::vector<Eigen::VectorXd> variance = known_variances(measured, group);
+    const std::vector<Eigen::VectorXd> variance = known_variances(measured, group);
     const bool given = !variance.empty();
-    ModeSearch part(group_data(measured, group, directions), std::move(variance),
-                    wanted_modes(options, groups.size(), g));
-    part.run(options.progress);
+    FitData data = group_data(measured, group, directions);
+    const std::optional<int> wanted = wanted_modes(options, groups.size(), g);
+    // A round tool in a round spindle: the same numbers in y as in x need no second fit.
+    const auto same = std::find_if(fitted.begin(), fitted.end(), [&](const FittedGroup& other) {
+      return other.wanted == wanted && other.variance == variance && alike(other.search->data(), data);
+    });
+    if (same == fitted.end()) {
+      fitted.push_back({wanted, variance, std::make_shared<ModeSearch>(std::move(data), variance, wanted)});
+      fitted.back().search->run(options.progress);
+    } else {
+      fitted.push_back(*same);
+    }
+    const ModeSearch& part = *fitted.back().search;
     fit.variance_given = fit.variance_given && !part.noise_estimated();
     if (given && part.noise_estimated()) {
       fit.warnings.push_back(

@@ -352,6 +352,7 @@ RefinedModes refine_modes(const FitData& data, const std::vector<Mode>& start, i
   options.function_tolerance = 1e-9;
   options.gradient_tolerance = 0;
   options.parameter_tolerance = 1e-13;
+  options.max_num_line_search_step_size_iterations = 0;  // at bounds: a step is cut, or made shorter
   options.logging_type = ceres::SILENT;
   options.num_threads = 1;
   ceres::Solver::Summary summary;

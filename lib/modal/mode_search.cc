@@ -24,6 +24,7 @@ constexpr int kStartSteps = 24;  // of the first refinement, of many candidates
 constexpr int kFinalSteps = 60;
 constexpr int kRescues = 3;
 constexpr double kOutsideMargin = 2;  // how far outside the band a mode is looked for
+constexpr double kReach = 60;         // half widths around a pole that say whether it is worth trying
 constexpr double kBeyondDoubt = 100;  // times the price
 // Weights never claim less noise than these shares of the value, and than a part of that of the curve's RMS.
 // Computed receptances have no noise at all, and rounding must not decide the number of modes; the coarse
@@ -43,25 +44,45 @@ constexpr double kLargerShare = 0.3;
 // mode.
 constexpr double kLeastHalfWidth = 0.02;
 
-// How much of the weighted residual one pole takes away, and its residue.
-double single_pole_gain(const PoleValues& values, const Eigen::VectorXd& weight,
-                        const Eigen::VectorXcd& residual, Complex& residue) {
-  Eigen::Matrix2d gram = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d projection = Eigen::Vector2d::Zero();
-  for (Eigen::Index i = 0; i < residual.size(); ++i) {
-    const Complex sum = values.phi(i, 0) + values.phi_conj(i, 0);
-    const Complex difference = Complex(0, 1) * (values.phi(i, 0) - values.phi_conj(i, 0));
-    gram(0, 0) += weight[i] * std::norm(sum);
-    gram(1, 1) += weight[i] * std::norm(difference);
-    gram(0, 1) += weight[i] * (std::conj(sum) * difference).real();
-    projection[0] += weight[i] * (std::conj(sum) * residual[i]).real();
-    projection[1] += weight[i] * (std::conj(difference) * residual[i]).real();
+// A residual curve in separate arrays, times its weights.
+struct WeightedResidual {
+  Eigen::ArrayXd weight, re, im;
+};
+
+// The pole 1 / (i w - lambda) plus and (times i) minus its mirror image, on the lines that it reaches.
+struct PoleShape {
+  Eigen::Index first, count;
+  Eigen::ArrayXd sum_re, sum_im, difference_re, difference_im;
+
+  PoleShape(const Eigen::ArrayXd& omega, Complex pole) {
+    const double alpha = pole.real(), beta = pole.imag(), reach = -kReach * alpha;
+    first = std::lower_bound(omega.begin(), omega.end(), beta - reach) - omega.begin();
+    count = std::upper_bound(omega.begin(), omega.end(), beta + reach) - omega.begin() - first;
+    const Eigen::ArrayXd below = omega.segment(first, count) - beta,
+                         above = omega.segment(first, count) + beta;
+    const Eigen::ArrayXd size = (alpha * alpha + below.square()).inverse();
+    const Eigen::ArrayXd mirrored = (alpha * alpha + above.square()).inverse();
+    sum_re = -alpha * (size + mirrored);
+    sum_im = -(below * size + above * mirrored);
+    difference_re = below * size - above * mirrored;
+    difference_im = -alpha * (size - mirrored);
   }
-  gram(1, 0) = gram(0, 1);
-  const Eigen::Vector2d solution = gram.inverse() * projection;
-  residue = {solution[0], solution[1]};
-  return solution.allFinite() ? solution.dot(projection) : 0.0;
-}
+
+  // How much of the weighted residual the pole takes away, and its residue.
+  double gain(const WeightedResidual& residual, Complex& residue) const {
+    const auto weight = residual.weight.segment(first, count);
+    const auto re = residual.re.segment(first, count), im = residual.im.segment(first, count);
+    Eigen::Matrix2d gram;
+    gram(0, 0) = (weight * (sum_re.square() + sum_im.square())).sum();
+    gram(1, 1) = (weight * (difference_re.square() + difference_im.square())).sum();
+    gram(0, 1) = gram(1, 0) = (weight * (sum_re * difference_re + sum_im * difference_im)).sum();
+    const Eigen::Vector2d projection((sum_re * re + sum_im * im).sum(),
+                                     (difference_re * re + difference_im * im).sum());
+    const Eigen::Vector2d solution = gram.inverse() * projection;
+    residue = {solution[0], solution[1]};
+    return solution.allFinite() ? solution.dot(projection) : 0.0;
+  }
+};
 
 }  // namespace
 
@@ -306,9 +327,13 @@ bool ModeSearch::add_mode() {
 }
 
 Mode ModeSearch::best_addition() const {
-  std::vector<Eigen::VectorXcd> residual;
-  for (const Curve& curve : data_.curves)
-    residual.push_back(curve.h - curve_of(current_.modes, curve, data_.s));
+  const Eigen::ArrayXd lines = data_.s.imag();
+  std::vector<WeightedResidual> residual;
+  for (const Curve& curve : data_.curves) {
+    const Eigen::VectorXcd left = curve.h - curve_of(current_.modes, curve, data_.s);
+    residual.push_back({curve.weight.array(), curve.weight.array() * left.real().array(),
+                        curve.weight.array() * left.imag().array()});
+  }
   const double hi = data_.s[data_.lines() - 1].imag();
   const double spacing = line_spacing();
   const double lo = std::max(data_.s[0].imag(), spacing);
@@ -319,13 +344,11 @@ Mode ModeSearch::best_addition() const {
     const double margin = zeta == 0.08 ? kOutsideMargin : 1;
     for (double omega = lo / margin; omega <= hi * margin; omega += std::max(zeta * omega, spacing / 2)) {
       const Complex pole = omega * Complex(-zeta, std::sqrt(1 - zeta * zeta));
-      const PoleValues values(data_.s, Eigen::VectorXcd::Constant(1, pole));
+      const PoleShape shape(lines, pole);
       Eigen::RowVectorXcd residue(static_cast<Eigen::Index>(data_.curves.size()));
       double gain = 0;
-      for (std::size_t e = 0; e < data_.curves.size(); ++e) {
-        gain += single_pole_gain(values, data_.curves[e].weight, residual[e],
-                                 residue[static_cast<Eigen::Index>(e)]);
-      }
+      for (std::size_t e = 0; e < residual.size(); ++e)
+        gain += shape.gain(residual[e], residue[static_cast<Eigen::Index>(e)]);
       if (gain > best_gain) {
         best_gain = gain;
         best = rank_one(pole, residue);

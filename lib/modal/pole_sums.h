@@ -20,6 +20,13 @@ struct PoleValues {
   Eigen::MatrixXcd phi_conj;  ///< [lines x poles], of the conjugate poles
 };
 
+/// Sums over the lines of phi times w, w h, w conj(h) and w |h|^2 (columns), for all poles and then for their
+/// conjugates: [2 poles x 4]. In one pass, without forming phi.
+Eigen::Matrix<std::complex<double>, Eigen::Dynamic, 4> curve_sums(const Eigen::VectorXcd& s,
+                                                                  const Eigen::VectorXcd& poles,
+                                                                  const Eigen::VectorXd& weight,
+                                                                  const Eigen::VectorXcd& h);
+
 /// Weighted inner products sum w conj(g_a) g_b over the lines, where g is phi or phi^2 (order 1 or 2) of a
 /// pole or of its conjugate.
 class PoleSums {

@@ -37,24 +37,24 @@ Eigen::MatrixXd real_gram(const Eigen::MatrixXcd& complex_gram) {
   return gram;
 }
 
-// sum c conj(x_a): from [phi, phi'] sums.
-Eigen::VectorXd real_projection(const Eigen::VectorXcd& phi, const Eigen::VectorXcd& phi_conj) {
-  Eigen::VectorXd result(2 * phi.size());
-  for (Eigen::Index a = 0; a < phi.size(); ++a) {
-    result[2 * a] = (phi[a] + phi_conj[a]).real();
-    result[2 * a + 1] = (phi[a] - phi_conj[a]).imag();
+// sum c conj(x_a), from the sums with the conjugate of c.
+Eigen::VectorXd real_projection(const Eigen::VectorXcd& sum_of_conjugate) {
+  const Eigen::Index n = sum_of_conjugate.size() / 2;
+  Eigen::VectorXd result(2 * n);
+  for (Eigen::Index a = 0; a < n; ++a) {
+    result[2 * a] = (sum_of_conjugate[a] + sum_of_conjugate[n + a]).real();
+    result[2 * a + 1] = (sum_of_conjugate[n + a] - sum_of_conjugate[a]).imag();
   }
   return result;
 }
 
-// sum c conj(phi_a) phi_b over poles and conjugate poles for complex weights c, by partial fractions:
-// -(S_c(b) + conj S_cbar(a)) / (b + conj a).
-Eigen::MatrixXcd weighted_gram(const PoleValues& values, const Eigen::VectorXcd& c) {
-  const Eigen::Index n = values.pole.size();
-  Eigen::VectorXcd pole(2 * n), sum(2 * n), sum_of_conjugate(2 * n);
-  pole << values.pole, values.pole.conjugate();
-  sum << values.phi.transpose() * c, values.phi_conj.transpose() * c;
-  sum_of_conjugate << values.phi.transpose() * c.conjugate(), values.phi_conj.transpose() * c.conjugate();
+// sum c conj(phi_a) phi_b over poles and conjugate poles, by partial fractions: -(S_c(b) + conj S_cbar(a)) /
+// (b + conj a), from the sums with c and with its conjugate.
+Eigen::MatrixXcd weighted_gram(const Eigen::VectorXcd& poles, const Eigen::VectorXcd& sum,
+                               const Eigen::VectorXcd& sum_of_conjugate) {
+  const Eigen::Index n = poles.size();
+  Eigen::VectorXcd pole(2 * n);
+  pole << poles, poles.conjugate();
   Eigen::MatrixXcd gram(2 * n, 2 * n);
   for (Eigen::Index a = 0; a < 2 * n; ++a) {
     for (Eigen::Index b = 0; b < 2 * n; ++b) {
@@ -126,31 +126,35 @@ Eigen::VectorXcd starting_poles(const FitData& data, Eigen::Index pairs) {
 
 Eigen::VectorXcd relocate_poles(const FitData& data, const Eigen::VectorXcd& poles) {
   const Eigen::Index n = poles.size();
-  const PoleValues values(data.s, poles);
   // For each curve: residues r and common sigma = 1 d + sum c x: minimise sum w |sum r x - h sigma|^2. The
   // residues are eliminated (Schur complement); what is left adds up over the curves, in (c, d).
   Eigen::MatrixXd reduced = Eigen::MatrixXd::Zero(2 * n + 1, 2 * n + 1);
   for (const Curve& curve : data.curves) {
-    const Eigen::VectorXcd wh = curve.weight.cwiseProduct(curve.h);
-    const Eigen::VectorXcd whh = (curve.weight.array() * curve.h.array().abs2()).matrix().cast<Complex>();
-    const Eigen::MatrixXd gram = real_gram(weighted_gram(values, curve.weight.cast<Complex>()));
+    const auto sums = curve_sums(data.s, poles, curve.weight, curve.h);
+    const Eigen::VectorXcd of_w = sums.col(0), of_wh = sums.col(1), of_conjugate = sums.col(2),
+                           of_whh = sums.col(3);
+    const Eigen::MatrixXd gram = real_gram(weighted_gram(poles, of_w, of_w));
     Eigen::MatrixXd cross(2 * n, 2 * n + 1);  // sum w conj(x_a) h x_b, and with 1
-    cross.leftCols(2 * n) = real_gram(weighted_gram(values, wh));
-    cross.col(2 * n) = real_projection(values.phi.adjoint() * wh, values.phi_conj.adjoint() * wh);
+    cross.leftCols(2 * n) = real_gram(weighted_gram(poles, of_wh, of_conjugate));
+    cross.col(2 * n) = real_projection(of_conjugate);
     Eigen::MatrixXd own(2 * n + 1, 2 * n + 1);  // sum w |h|^2 conj(x_a) x_b
-    own.topLeftCorner(2 * n, 2 * n) = real_gram(weighted_gram(values, whh));
-    own.topRightCorner(2 * n, 1) =
-        real_projection(values.phi.adjoint() * whh, values.phi_conj.adjoint() * whh);
+    own.topLeftCorner(2 * n, 2 * n) = real_gram(weighted_gram(poles, of_whh, of_whh));
+    own.topRightCorner(2 * n, 1) = real_projection(of_whh);
     own.bottomLeftCorner(1, 2 * n) = own.topRightCorner(2 * n, 1).transpose();
-    own(2 * n, 2 * n) = whh.real().sum();
+    own(2 * n, 2 * n) = curve.weight.dot(curve.h.cwiseAbs2());
     const Eigen::MatrixXd complement = own - cross.transpose() * ScaledSystem(gram).solve(cross);
     reduced += (complement + complement.transpose()) / 2;
   }
   // Relaxed non-triviality: the mean of Re sigma over the lines is 1.
   Eigen::VectorXd mean(2 * n + 1);
+  const Eigen::VectorXcd of_one =
+      curve_sums(data.s, poles,
+                 Eigen::VectorXd::Constant(data.lines(), 1.0 / static_cast<double>(data.lines())),
+                 Eigen::VectorXcd::Zero(data.lines()))
+          .col(0);
   for (Eigen::Index k = 0; k < n; ++k) {
-    mean[2 * k] = (values.phi.col(k) + values.phi_conj.col(k)).mean().real();
-    mean[2 * k + 1] = -(values.phi.col(k) - values.phi_conj.col(k)).mean().imag();
+    mean[2 * k] = (of_one[k] + of_one[n + k]).real();
+    mean[2 * k + 1] = (of_one[n + k] - of_one[k]).imag();
   }
   mean[2 * n] = 1;
   Eigen::VectorXd sigma = ScaledSystem(reduced).solve(mean);
@@ -193,11 +197,10 @@ LinearResidues linear_residues(const FitData& data, const Eigen::VectorXcd& pole
   result.removal_loss = Eigen::VectorXd::Zero(n);
   for (std::size_t e = 0; e < data.curves.size(); ++e) {
     const Curve& curve = data.curves[e];
-    const Eigen::VectorXcd wh = curve.weight.cwiseProduct(curve.h);
-    const ScaledSystem system(real_gram(weighted_gram(values, curve.weight.cast<Complex>())));
+    const auto sums = curve_sums(data.s, poles, curve.weight, curve.h);
+    const ScaledSystem system(real_gram(weighted_gram(poles, sums.col(0), sums.col(0))));
     const Eigen::MatrixXd inverse = system.solve(Eigen::MatrixXd::Identity(2 * n, 2 * n));
-    const Eigen::VectorXd coefficient =
-        system.solve(real_projection(values.phi.adjoint() * wh, values.phi_conj.adjoint() * wh));
+    const Eigen::VectorXd coefficient = system.solve(real_projection(sums.col(2)));
     Eigen::VectorXcd residue(n);
     for (Eigen::Index k = 0; k < n; ++k) {
       residue[k] = {coefficient[2 * k], coefficient[2 * k + 1]};

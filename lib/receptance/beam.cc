@@ -15,7 +15,8 @@ using Complex = std::complex<double>;
 
 // Below this size of wavenumber times length the series are used, above it the functions themselves.
 constexpr double kSeriesLimit = 2;
-constexpr int kTerms = 16;  // (k + 1) 4^k / (2k)! is below 1e-20 from here on
+constexpr int kMostTerms = 16;       // (k + 1) 4^k / (2k)! is below 1e-20 from here on
+constexpr double kLastTerm = 1e-20;  // of a series that begins with 1
 
 // A segment at one frequency. With the deflection w and the section's rotation psi, V' = -rho A w^2 w, M' =
 // -V - rho I w^2 psi, psi' = M / EI, w' = psi + V / (kappa G A); solutions exp(s x) with s^2 = p or q, the
@@ -69,11 +70,16 @@ struct Series {
 
 Series series_at(const Waves& w, double x) {
   const Complex pq = w.a * w.b - w.c4, sum = -(w.a + w.b);
-  Series s{0, 1, 1, 0, x, x, -1.0 / pq, sum / pq + 0.5 * x * x};
+  const Complex inverse = 1.0 / pq;
+  Series s{0, 1, 1, 0, x, x, -inverse, sum * inverse + 0.5 * x * x};
+  // |P_k| is at most (k + 1) size^k.
+  const double size = std::max(std::abs(w.p), std::abs(w.q)) * x * x;
+  double term = 1;
   // P_(k-1), P_(k-2), P_(k-3) for k = 1.
   Complex p1 = 1, p2 = 0, p3 = 0;
   double even = 1;  // x^2k/(2k)!
-  for (int k = 1; k < kTerms; ++k) {
+  for (int k = 1; k < kMostTerms && (k + 1) * term > kLastTerm; ++k) {
+    term *= size / (2 * k * (2 * k - 1));
     even *= x * x / (2 * k * (2 * k - 1));
     const double odd = even * x / (2 * k + 1);
     const Complex p0 = sum * p1 - pq * p2;  // P_k

@@ -291,7 +291,7 @@ Start refined(const Lines& lines, const ToolJoint& start, const JointBounds& bou
   options.function_tolerance = 1e-15;
   options.gradient_tolerance = 0;
   options.parameter_tolerance = 1e-14;
-  options.line_search_interpolation_type = ceres::BISECTION;  // which needs no derivatives
+  options.max_num_line_search_step_size_iterations = 0;  // at bounds: a step is cut, or made shorter
   options.logging_type = ceres::SILENT;
   options.num_threads = 1;
   std::vector<int> held;

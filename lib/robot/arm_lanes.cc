@@ -5,13 +5,7 @@
 #include <limits>
 
 #include "base/units.h"
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define STABLECUT_WIDE __attribute__((target_clones("avx2", "default")))
-#else
-#define STABLECUT_WIDE
-#endif
-#define STABLECUT_INLINE inline __attribute__((always_inline))
+#include "base/wide.h"
 
 namespace stablecut {
 namespace {
