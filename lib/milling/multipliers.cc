@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstring>
 #include <limits>
 #include <vector>
 
 #include "base/error.h"
+#include "base/wide.h"
 
 namespace stablecut {
 namespace {
@@ -23,8 +25,8 @@ struct Reflection {
 };
 
 // Elementwise, so that wide vectors give the same bits.
-void reflect_rows(double* __restrict row0, double* __restrict row1, double* __restrict row2,
-                  Eigen::Index count, const Reflection& t) {
+STABLECUT_INLINE void reflect_rows(double* __restrict row0, double* __restrict row1, double* __restrict row2,
+                                   Eigen::Index count, const Reflection& t) {
   if (row2 != nullptr) {
     for (Eigen::Index j = 0; j < count; ++j) {
       const double sum = row0[j] + t.q * row1[j] + t.r * row2[j];
@@ -41,8 +43,8 @@ void reflect_rows(double* __restrict row0, double* __restrict row1, double* __re
   }
 }
 
-void reflect_columns(double* entry, Eigen::Index stride, Eigen::Index count, bool three,
-                     const Reflection& t) {
+STABLECUT_INLINE void reflect_columns(double* entry, Eigen::Index stride, Eigen::Index count, bool three,
+                                      const Reflection& t) {
   if (three) {
     for (Eigen::Index i = 0; i < count; ++i, entry += stride) {
       const double sum = t.x * entry[0] + t.y * entry[1] + t.z * entry[2];
@@ -153,9 +155,10 @@ class HessenbergQr {
         r = three ? h_(k + 2, k - 1) : 0.0;
         size = std::abs(p) + std::abs(q) + std::abs(r);
         if (size == 0) continue;
-        p /= size;
-        q /= size;
-        r /= size;
+        const double inverse = 1 / size;
+        p *= inverse;
+        q *= inverse;
+        r *= inverse;
       }
       const double norm = std::copysign(std::sqrt(p * p + q * q + r * r), p);
       if (norm == 0) continue;
@@ -167,9 +170,10 @@ class HessenbergQr {
         h_(k, k - 1) = -h_(k, k - 1);
       }
       p += norm;
-      const double x = p / norm, y = q / norm, z = r / norm;
-      q /= p;
-      r /= p;
+      const double by_norm = 1 / norm, by_p = 1 / p;
+      const double x = p * by_norm, y = q * by_norm, z = r * by_norm;
+      q *= by_p;
+      r *= by_p;
       reflect_rows(&h_(k, k), &h_(k + 1, k), three ? &h_(k + 2, k) : nullptr, high - k + 1, {x, y, z, q, r});
       const Eigen::Index last = std::min(high, k + 3);
       reflect_columns(&h_(low, k), n_, last - low + 1, three, {x, y, z, q, r});
@@ -194,63 +198,96 @@ Eigen::VectorXcd hessenberg_eigenvalues(const RowMatrix& hessenberg) {
 
 // Norm of what is not reduced yet, over the norm of what is, at which the largest modulus is looked for, and
 // over that modulus, at which it is ignored.
-constexpr double kTried = 0.02, kIgnored = 0.4;
-constexpr Eigen::Index kNextStop = 2;  // columns between a stop and the next that has to agree
-constexpr double kAgreement = 1e-11;   // of two stops
-constexpr double kRivals = 0.98;       // share of the largest modulus from which on values are followed
+constexpr double kTried = 0.1, kIgnored = 0.4;
+constexpr Eigen::Index kNextStop = 2;  // columns between a stop and the next
+constexpr double kAgreement = 1e-11;   // of two stops, at which both are right
+constexpr double kUnsettled = 1e-3;    // from which on values cannot be followed
+constexpr double kRivals = 0.9;        // share of the largest modulus from which on values are followed
 constexpr int kNewtonSteps = 3;
 constexpr double kWorthStopping = 0.75;  // share of the rows from which on the whole costs as little
 
-// Deterministic whatever the vectors' width: eight partial sums.
-inline double dot(const double* __restrict a, const double* __restrict b, Eigen::Index count) {
-  double part[8] = {};
-  Eigen::Index i = 0;
-  for (; i + 8 <= count; i += 8) {
-    for (Eigen::Index l = 0; l < 8; ++l) part[l] += a[i + l] * b[i + l];
-  }
-  double sum = 0;
-  for (; i < count; ++i) sum += a[i] * b[i];
-  for (const double p : part) sum += p;
-  return sum;
+// Deterministic whatever the vectors' width: sums in lanes. Columns begin at whole lanes and are filled up
+// with zeros to whole lanes, so that loops need no ends.
+constexpr Eigen::Index kLanes = 8;
+typedef double Lanes __attribute__((vector_size(kLanes * sizeof(double))));
+
+STABLECUT_INLINE Lanes load(const double* from) {
+  Lanes v;
+  std::memcpy(&v, from, sizeof v);
+  return v;
+}
+STABLECUT_INLINE void store(const Lanes& v, double* to) { std::memcpy(to, &v, sizeof v); }
+STABLECUT_INLINE double dot(const double* a, const double* b, Eigen::Index from, Eigen::Index to) {
+  Lanes sum{};
+  for (Eigen::Index i = from; i < to; i += kLanes) sum += load(a + i) * load(b + i);
+  return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
+}
+STABLECUT_INLINE void add(double factor, const double* from, double* to, Eigen::Index first,
+                          Eigen::Index last) {
+  for (Eigen::Index i = first; i < last; i += kLanes) store(load(to + i) + factor * load(from + i), to + i);
 }
 
-inline void add(double factor, const double* __restrict from, double* __restrict to, Eigen::Index count) {
-  for (Eigen::Index i = 0; i < count; ++i) to[i] += factor * from[i];
-}
-
-// Q A Q with the reflection Q = I - 2 v v^T / v^T v on the last `count` rows and columns of the n x n matrix
-// at `a`, by columns; those before `first` need no rows reflected. `work` holds n numbers.
-__attribute__((target_clones("avx512f", "avx2", "default"))) void reflect(double* a, Eigen::Index n,
-                                                                          const double* v, Eigen::Index count,
-                                                                          Eigen::Index first, double* work) {
-  const double size = dot(v, v, count);
+// Q A Q with the reflection Q = I - 2 v v^T / v^T v on the rows and columns from `begin` of the matrix of n
+// columns at `a`, each of `stride` numbers; v is zero before `begin`. Columns before `first` need no rows
+// reflected. `work` holds `stride` numbers.
+STABLECUT_WIDE void reflect(double* a, Eigen::Index n, Eigen::Index stride, const double* v,
+                            Eigen::Index begin, Eigen::Index first, double* work) {
+  const Eigen::Index from = begin / kLanes * kLanes;
+  const double size = dot(v, v, from, stride);
   if (size == 0) return;
   for (Eigen::Index c = first; c < n; ++c) {
-    double* column = a + c * n + (n - count);
-    add(-2 / size * dot(v, column, count), v, column, count);
+    double* column = a + c * stride;
+    add(-2 / size * dot(v, column, from, stride), v, column, from, stride);
   }
-  std::fill(work, work + n, 0.0);
-  for (Eigen::Index c = 0; c < count; ++c) add(v[c], a + (n - count + c) * n, work, n);
-  for (Eigen::Index c = 0; c < count; ++c) add(-2 / size * v[c], work, a + (n - count + c) * n, n);
+  std::fill(work, work + stride, 0.0);
+  for (Eigen::Index c = begin; c < n; ++c) add(v[c], a + c * stride, work, 0, stride);
+  for (Eigen::Index c = begin; c < n; ++c) add(-2 / size * v[c], work, a + c * stride, 0, stride);
 }
 
-// Column k to one entry below its diagonal. `v` and `work` hold n numbers.
-void reduce_column(Eigen::MatrixXd& a, Eigen::Index k, double* v, double* work) {
-  const Eigen::Index n = a.rows(), count = n - k - 1;
-  auto column = a.col(k).tail(count);
-  if (column.tail(count - 1).isZero(0)) return;
-  std::copy(column.begin(), column.end(), v);
-  const double norm = std::copysign(column.norm(), v[0]);
-  v[0] += norm;
-  reflect(a.data(), n, v, count, k + 1, work);
-  column.setZero();
-  column[0] = -norm;
-}
+// A matrix on its way to Hessenberg form: columns of `stride` numbers, the rows below n zero.
+class Reduction {
+ public:
+  explicit Reduction(const Eigen::MatrixXd& matrix)
+      : n_(matrix.rows()),
+        a_(Eigen::MatrixXd::Zero((n_ + kLanes - 1) / kLanes * kLanes, n_)),
+        v_(Eigen::VectorXd::Zero(a_.rows())),
+        work_(a_.rows()) {
+    a_.topRows(n_) = matrix;
+    // The basis begins with a vector that has a part of everything.
+    v_.head(n_).setOnes();
+    v_[0] += std::sqrt(static_cast<double>(n_));
+    reflect(a_.data(), n_, a_.rows(), v_.data(), 0, 0, work_.data());
+  }
+
+  // Column k to one entry below its diagonal.
+  void reduce_column(Eigen::Index k) {
+    const Eigen::Index count = n_ - k - 1;
+    auto column = a_.col(k).segment(k + 1, count);
+    if (column.tail(count - 1).isZero(0)) return;
+    v_.setZero();
+    v_.segment(k + 1, count) = column;
+    const double norm = std::copysign(column.norm(), column[0]);
+    v_[k + 1] += norm;
+    reflect(a_.data(), n_, a_.rows(), v_.data(), k + 1, k + 1, work_.data());
+    column.setZero();
+    column[0] = -norm;
+  }
+
+  // The leading block, and the norm of what follows on the diagonal.
+  auto reduced(Eigen::Index size) const { return a_.topLeftCorner(size, size); }
+  double norm_left(Eigen::Index size) const { return a_.block(size, size, n_ - size, n_ - size).norm(); }
+
+ private:
+  Eigen::Index n_;
+  Eigen::MatrixXd a_;
+  Eigen::VectorXd v_, work_;
+};
 
 // An eigenvalue of the leading Hessenberg block of that size, from one nearby: Newton's method on what is
 // left of the first equation when the others are solved from the last (Hyman). Not finite where a subdiagonal
 // is zero.
-std::complex<double> followed(const Eigen::MatrixXd& h, Eigen::Index size, std::complex<double> value) {
+std::complex<double> followed(const Eigen::Ref<const Eigen::MatrixXd>& h, std::complex<double> value) {
+  const Eigen::Index size = h.rows();
   Eigen::VectorXcd x(size), slope(size);  // the vector, and its derivative by the eigenvalue
   for (int step = 0; step < kNewtonSteps; ++step) {
     x.setZero();
@@ -293,37 +330,40 @@ double largest_modulus(Eigen::MatrixXd a, Eigen::Index states) {
     a.topRightCorner(states, rest) *= ratio;
     a.bottomLeftCorner(rest, states) /= ratio;
   }
-  // The basis begins with a vector that has a part of everything.
-  Eigen::VectorXd v = Eigen::VectorXd::Ones(n), work(n);
-  v[0] += std::sqrt(static_cast<double>(n));
-  reflect(a.data(), n, v.data(), n, 0, work.data());
+  Reduction reduction(a);
   std::vector<std::complex<double>> found;  // the largest and its rivals, of the stop before
+  double largest = 0;
   Eigen::Index stopped = 0;
   for (Eigen::Index size = 1; size + 1 < n; ++size) {
-    reduce_column(a, size - 1, v.data(), work.data());
+    reduction.reduce_column(size - 1);
     // Before the basis holds as much as the states the rest is not small.
     if (size < states || static_cast<double>(size) > kWorthStopping * static_cast<double>(n) ||
         size < stopped + kNextStop)
       continue;
-    const double left = a.bottomRightCorner(n - size, n - size).norm();
-    double largest = 0;
-    bool agree = !found.empty();
-    for (const auto value : found) {
-      const auto now = followed(a, size, value);
-      agree = agree && std::abs(now - value) <= kAgreement * std::max(1.0, std::abs(now));
+    // Follow the largest and its rivals; where they still move much, or there are none, look at all again.
+    double change = found.empty() ? kUnsettled : 0;
+    largest = 0;
+    for (auto& value : found) {
+      const auto now = followed(reduction.reduced(size), value);
+      const double moved = std::abs(now - value) / std::max(1.0, std::abs(now));
+      change = std::max(change, std::isfinite(moved) ? moved : kUnsettled);
       largest = std::max(largest, std::abs(now));
+      value = now;
     }
-    if (agree && left <= kIgnored * largest) return largest;
-    if (left > kTried * a.topLeftCorner(size, size).norm()) continue;
-    const Eigen::VectorXcd values = hessenberg_eigenvalues(a.topLeftCorner(size, size));
-    largest = values.cwiseAbs().maxCoeff();
+    if (change <= kAgreement) return largest;
+    stopped = size;
+    if (change < kUnsettled) continue;
     found.clear();
+    const double left = reduction.norm_left(size);
+    if (left > kTried * reduction.reduced(size).norm()) continue;
+    const Eigen::VectorXcd values = hessenberg_eigenvalues(reduction.reduced(size));
+    largest = values.cwiseAbs().maxCoeff();
+    if (left > kIgnored * largest) continue;
     for (const auto& value : values) {
       if (value.imag() >= 0 && std::abs(value) >= kRivals * largest) found.push_back(value);
     }
-    stopped = size;
   }
-  return hessenberg_eigenvalues(a).cwiseAbs().maxCoeff();
+  return hessenberg_eigenvalues(reduction.reduced(n)).cwiseAbs().maxCoeff();
 }
 
 }  // namespace stablecut
