@@ -62,6 +62,9 @@ documents = {
     "fitted table": modes,
     "coupled frf": run("rcsa-couple", "--slopes", str(source / "testdata/liu-assembly.json")),
     "assembly": json.loads((source / "testdata/liu-assembly.json").read_text()),
+    "tip on a measured spindle": run("rcsa-couple", str(source / "testdata/carbide-in-collet.json")),
+    "identified joint": run("rcsa-couple", "--identify", str(source / "testdata/carbide-tap.json"),
+                            str(source / "testdata/carbide-in-collet.json")),
     "lobes": run("sdm-lobes", "--cut", cut, *chart, "--per-mode", "--modes", "1,15", "--points",
                  str(source / "testdata/thesis-table-6-3.csv"), table),
     "lobes by sdm, limit only": run("sdm-lobes", "--cut", cut, *chart, "--method", "sdm", "--limit-only", table),
@@ -97,7 +100,7 @@ documents["stiffness where one load leaves joints unseen"] = run(
     "joint-stiffness", *robot, stdin=json.dumps(documents["load samples"]))
 required = {"frf": "h", "modal-table": "modes", "lobes": "limit", "robot": "tool", "load-samples": "samples",
             "joint-stiffness": "stiffness_n_m_per_rad", "pose-list": "poses", "measurement-plan": "samples", "pose": "index",
-            "pose-map": "score", "assembly": "tool"}
+            "pose-map": "score", "assembly": "tool", "tool-joint": "x"}
 assert set(required) | {"cut"} == set(schemas), "a kind without an example"
 for name, document in documents.items():
     validate(name, document)

@@ -20,6 +20,26 @@ check_jq "slopes, reciprocal" slopes.json '(.h | length) == 16 and ([.h[] | sele
   | [.h[] | select(.response == "slope_x" and .reference == "x")][0].re as $b | [$a, $b] | transpose | all((.[0] - .[1] | fabs) <= 1e-9 * (.[0] | fabs)))'
 jq '.joint = {x: "rigid", y: .joint} | .holder = {x: .holder, y: (.holder | .end = "free")}' "$assembly" | rcsa-couple -o apart.json
 check_jq "x and y apart" apart.json '.h[0].re == $rigid[0].h[0].re and .h[3].re != $rigid[0].h[3].re' --slurpfile rigid rigid.json
+
+# Flutes: 0.8 of the diameter, or what is said.
+jq '.tool.segments[0].flutes = 4' "$assembly" | rcsa-couple --no-provenance -o fluted.json
+jq '.tool.segments[0] |= (.outer_diameter_mm = 12 | .equivalent_diameter_mm = 9.6)' "$assembly" | rcsa-couple --no-provenance -o equivalent.json
+jq '.tool.segments[0].outer_diameter_mm = 9.6' "$assembly" | rcsa-couple --no-provenance -o thin.json
+check_jq "flutes by their equivalent diameter" fluted.json '[.h[0].re, $thin[0].h[0].re] | transpose | all((.[0] - .[1] | fabs) <= 1e-9 * (.[1] | fabs) + 1e-18)' --slurpfile thin thin.json
+check "an equivalent diameter" cmp -s equivalent.json thin.json
+# A sensor's mass: 1/h + w^2 m, and h again when it is taken from there.
+jq '.sensor_mass_g = 5' "$assembly" | rcsa-couple -o sensor.json
+check_jq "a sensor on the tip: 1/h - 1/h_with = m w^2" sensor.json '[.frequency_hz, .h[0].re, .h[0].im, $bare[0].h[0].re, $bare[0].h[0].im] | transpose
+  | map(. as [$f, $a, $b, $c, $d] | ($c / ($c * $c + $d * $d) - $a / ($a * $a + $b * $b)) / (0.005 * pow(6.283185307179586 * $f; 2)) - 1 | fabs)
+  | .[100:] | length > 4000 and all(. < 1e-6)' --slurpfile bare joint.json
+# Along the tool: the tip, reciprocity.
+rcsa-couple "$assembly" --positions 0,40 -o along.json
+check_jq "places along the tool" along.json '(.h | length) == 16 and .h[0].response_position_mm == 0 and .h[4].reference_position_mm == 40
+  and ([.h[4].re, .h[8].re] | transpose | all((.[0] - .[1] | fabs) <= 1e-9 * (.[0] | fabs)))
+  and ([.h[0].re, $tip[0].h[0].re] | transpose | .[10:] | all((.[0] - .[1] | fabs) <= 1e-8 * (.[0] | fabs)))' --slurpfile tip joint.json
+refused 64 '^rcsa-couple: --positions: 0,x: expected' rcsa-couple "$assembly" --positions 0,x
+refused 64 '^rcsa-couple: --positions: 0,0: expected each place once' rcsa-couple "$assembly" --positions 0,0
+refused 65 '^rcsa-couple: position 200.* mm: expected 0 to 118.9' rcsa-couple "$assembly" --positions 0,200
 rcsa-couple --threads 1 "$assembly" >one.json
 rcsa-couple --threads 2 "$assembly" >two.json
 check "same bytes on one and two threads" cmp -s one.json two.json
@@ -36,7 +56,11 @@ with '.tool.segments[0].length_m = 1' '/tool/segments/0/length_m: unknown field:
 with '.materials.steel.poisson_ratio = 0.6' '/materials/steel/poisson_ratio: 0.6: expected'
 with '.beam_theory = "rayleigh"' '/beam_theory: "rayleigh": expected "timoshenko" or "euler-bernoulli"'
 with '.holder.end = "pinned"' '/holder/end: "pinned": expected "fixed" or "free"'
-with '.holder = {modal_table: {}}' '/holder/modal_table: .*this version computes holders of beams only'
+with '.holder = {segments: .holder.segments}' '/holder/end: missing'
+with '.sensor_mass_g = -1' '/sensor_mass_g: -1: expected a number not below 0'
+with '.tool.segments[0].flutes = 0' '/tool/segments/0/flutes: 0: expected a whole number from 1'
+with '.tool.segments[0].equivalent_diameter_mm = 13' '/tool/segments/0/equivalent_diameter_mm: 13: expected at most outer_diameter_mm'
+with '.tool.segments[0] |= (.flutes = 2 | .inner_diameter_mm = 10)' '/tool/segments/0/inner_diameter_mm: 10: expected less than the equivalent diameter'
 with '.holder = {x: .holder}' '/holder/y: missing'
 with '.joint = "glued"' '/joint: "glued": expected "rigid"'
 with '.joint.k1_n_per_m = -1' '/joint/k1_n_per_m: -1: expected a number above 0'

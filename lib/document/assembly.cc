@@ -296,7 +296,8 @@ class AssemblyReader {
       if (!quality.noisy_hz.empty())
         add("slopes below three deviations of their noise on " + list_of_lines(quality.noisy_hz, lines));
       if (!quality.unphysical_hz.empty())
-        add("energy is given away (not passive) on " + list_of_lines(quality.unphysical_hz, lines));
+        add("more than 5 % of it gives energy away (not passive) on " +
+            list_of_lines(quality.unphysical_hz, lines));
       if (!text.empty()) document_.warnings.push_back(place(content) + (d == 0 ? "x: " : "y: ") + text);
     }
     if (holder.cross_left_out) {

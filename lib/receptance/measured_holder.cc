@@ -19,9 +19,9 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr std::array<const char*, 4> kCoordinates = {"x", "slope_x", "y", "slope_y"};
-constexpr double kSamePlace = 1e-9;                       // m
-constexpr double kDeviations = 3;                         // of the noise, below which a value is noise
-constexpr double kPassiveShare = 1e-6;                    // of the receptance: rounding gives no energy away
+constexpr double kSamePlace = 1e-9;     // m
+constexpr double kDeviations = 3;       // of the noise, below which a value is noise
+constexpr double kPassiveShare = 0.05;  // of the receptance, which may be given away before it is said
 constexpr std::size_t kDirectPairs = 3, kCrossPairs = 4;  // unknowns of a symmetric and of any 2x2 matrix
 
 // One measured curve between two places.

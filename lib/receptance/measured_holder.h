@@ -31,7 +31,7 @@ struct HolderQuality {
   double spacing_m = 0;               ///< S of a finite difference
   bool second_difference = false;     ///< p by (h(0,0) - h(0,S) - h(S,0) + h(S,S)) / S^2; else of rank one
   std::vector<double> noisy_hz;       ///< lines on which l is below three standard deviations of its noise
-  std::vector<double> unphysical_hz;  ///< lines on which the receptance gives energy away (not passive)
+  std::vector<double> unphysical_hz;  ///< lines on which more than 5 % of the receptance gives energy away
 };
 
 struct MeasuredHolder {
