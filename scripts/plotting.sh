@@ -53,6 +53,9 @@ plot_input() {
   rm "$work/raw"
 }
 
+# plot_text TEXT: the same of a text from the command line.
+plot_text() { printf %s "$1" | LC_ALL=C tr -c 'A-Za-z0-9 _.,:/^+*()=%-' '?'; }
+
 # plot_terminal WIDTH HEIGHT: the set terminal line, for the form.
 plot_terminal() {
   case "$form" in

@@ -27,6 +27,13 @@ done
 refused 65 '^plot-lobes: frf.json: /format: stablecut/frf/1: expected stablecut/lobes/1' "$scripts/plot-lobes" frf.json -o x.svg
 "$scripts/plot-frf" frf.json --fitted frf.json --parts complex -o both.svg
 check "measured and fitted, real and imaginary" grep -q 'Im H' both.svg
+rcsa-couple --quiet --identify "$data/carbide-tap.json" "$data/carbide-in-collet.json" --fitted fitted.json --rigid rigid.json -o joint.json
+"$scripts/plot-frf" "$data/carbide-tap.json" --fitted fitted.json --rigid rigid.json -o joint.svg
+check "the joint's effect" grep -q 'rigid joint' joint.svg
+check "the first curve by its name" grep -q '>measured<' joint.svg
+check "no panel for what does not move" test "$(grep -c 'H x' joint.svg)" -eq 1
+"$scripts/plot-frf" --label 'with a "joint"' frf.json -o named.svg
+check "its name by the user, without harm" grep -q 'with a ?joint?' named.svg
 sdm-lobes "$data/thesis-table-6-2.json" --cut "$data/thesis-cut.json" --speed 9000:9000:1 --depth 0.1:0.1:1 --limit-only |
   "$scripts/plot-lobes" -o stable.svg
 check "a chart without a limit says so" grep -q 'stable over the whole chart' stable.svg
