@@ -34,7 +34,7 @@ Receptance<2> Assembly::holder(int direction, Eigen::Index line) const {
   if (by.end == HolderEnd::kFree) {
     if (by.segments.empty()) throw InvalidArgument("holder: a free end: expected a segment");
     const BeamChain outer(by.segments.begin(), by.segments.end() - 1);
-    return held_chain<2>(outer, theory, omega, free_free_receptances(by.segments.back(), theory, omega).r11);
+    return held_chain<2>(outer, theory, omega, SegmentMotion(by.segments.back(), theory, omega).free().r11);
   }
   Receptance<2> inner = Receptance<2>::Zero();
   if (by.end == HolderEnd::kGiven) {

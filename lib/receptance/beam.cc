@@ -63,18 +63,17 @@ Waves waves_of(const BeamSegment& s, BeamTheory theory, double omega) {
 // Entire functions of p and q at x, by their series: with P_n = sum over i + j = n of p^i q^j,
 // e2 = sum x^2k/(2k)! P_(k-1), u = 1 - pq sum x^2k/(2k)! P_(k-2), D = sum x^2k/(2k)! P_k; o3, uo, Do the same
 // with x^(2k+1)/(2k+1)!; and the integrals of o3 and uo without a constant, i3 = -1/(pq) + ..., iu = (p +
-// q)/(pq) + ...
+// q)/(pq) + ... Sums of P_(k-1), P_(k-2) and P_(k-3) suffice, since P_k = (p + q) P_(k-1) - pq P_(k-2).
 struct Series {
   Complex e2, u, d, o3, uo, d_odd, i3, iu;
 };
 
 Series series_at(const Waves& w, double x) {
   const Complex pq = w.a * w.b - w.c4, sum = -(w.a + w.b);
-  const Complex inverse = 1.0 / pq;
-  Series s{0, 1, 1, 0, x, x, -inverse, sum * inverse + 0.5 * x * x};
   // |P_k| is at most (k + 1) size^k.
-  const double size = std::max(std::abs(w.p), std::abs(w.q)) * x * x;
+  const double size = std::sqrt(std::max(std::norm(w.p), std::norm(w.q))) * x * x;
   double term = 1;
+  Complex even1, even2, even3, odd1, odd2;
   // P_(k-1), P_(k-2), P_(k-3) for k = 1.
   Complex p1 = 1, p2 = 0, p3 = 0;
   double even = 1;  // x^2k/(2k)!
@@ -82,20 +81,25 @@ Series series_at(const Waves& w, double x) {
     term *= size / (2 * k * (2 * k - 1));
     even *= x * x / (2 * k * (2 * k - 1));
     const double odd = even * x / (2 * k + 1);
+    even1 += even * p1;
+    even2 += even * p2;
+    even3 += even * p3;
+    odd1 += odd * p1;
+    odd2 += odd * p2;
     const Complex p0 = sum * p1 - pq * p2;  // P_k
-    s.e2 += even * p1;
-    s.u -= pq * even * p2;
-    s.d += even * p0;
-    s.o3 += odd * p1;
-    s.uo -= pq * odd * p2;
-    s.d_odd += odd * p0;
-    s.i3 += even * p2;
-    s.iu -= pq * even * p3;
     p3 = p2;
     p2 = p1;
     p1 = p0;
   }
-  return s;
+  const Complex inverse = 1.0 / pq;
+  return {even1,
+          1.0 - pq * even2,
+          1.0 + sum * even1 - pq * even2,
+          odd1,
+          x - pq * odd2,
+          x + sum * odd1 - pq * odd2,
+          even2 - inverse,
+          sum * inverse + 0.5 * x * x - pq * even3};
 }
 
 // Two solutions at a place: columns; deflection and rotation above, force and moment that the place's end
@@ -138,11 +142,19 @@ std::pair<Pair, Pair> by_functions(const Waves& w, double x) {
   return {even, odd};
 }
 
-bool series_suffice(const Waves& w, double x) {
-  return std::sqrt(std::max(std::abs(w.p), std::abs(w.q))) * x < kSeriesLimit;
-}
-
 Eigen::Matrix2cd receptance(const Pair& pair) { return pair.movement * pair.load.inverse(); }
+
+// Motion that is even and odd about the middle: each an own problem of two unknowns, in which nothing
+// cancels.
+BeamReceptances free_by_functions(const Waves& w, double length) {
+  const auto [even_pair, odd_pair] = by_functions(w, 0.5 * length);
+  const Eigen::Matrix2cd even = receptance(even_pair), odd = receptance(odd_pair);
+  // Mirrored at the middle the deflection keeps its sign and the slope changes it.
+  const Eigen::Vector2cd mirror(1, -1);
+  const Eigen::Matrix2cd sum = 0.5 * (even + odd), difference = 0.5 * (even - odd);
+  return {sum, difference * mirror.asDiagonal(), mirror.asDiagonal() * difference,
+          mirror.asDiagonal() * sum * mirror.asDiagonal()};
+}
 
 }  // namespace
 
@@ -151,53 +163,46 @@ double cowper_shear_coefficient(double ratio, double poisson) {
   return 6 * (1 + poisson) * one / ((7 + 6 * poisson) * one + (20 + 12 * poisson) * m2);
 }
 
-// Motion that is even and odd about the middle: each an own problem of two unknowns, in which nothing
-// cancels.
-BeamReceptances free_free_receptances(const BeamSegment& segment, BeamTheory theory, double omega_rad_per_s) {
+SegmentMotion::SegmentMotion(const BeamSegment& segment, BeamTheory theory, double omega_rad_per_s) {
   const Waves w = waves_of(segment, theory, omega_rad_per_s);
-  const double half = 0.5 * segment.length_m;
-  Eigen::Matrix2cd even, odd;
-  if (series_suffice(w, half)) {
-    const Series s = series_at(w, half);
-    even = receptance(even_by_series(w, s));
-    odd = receptance(odd_by_series(w, s));
-  } else {
-    const auto pairs = by_functions(w, half);
-    even = receptance(pairs.first);
-    odd = receptance(pairs.second);
+  const double length = segment.length_m;
+  short_ = std::max(std::norm(w.p), std::norm(w.q)) * std::pow(length, 4) < std::pow(kSeriesLimit, 4);
+  if (!short_) {
+    free_ = free_by_functions(w, length);
+    return;
   }
-  // Mirrored at the middle the deflection keeps its sign and the slope changes it.
-  const Eigen::Vector2cd mirror(1, -1);
-  const Eigen::Matrix2cd sum = 0.5 * (even + odd), difference = 0.5 * (even - odd);
-  return {sum, difference * mirror.asDiagonal(), mirror.asDiagonal() * difference,
-          mirror.asDiagonal() * sum * mirror.asDiagonal()};
+  // From end 2 at x = 0, where it does w0, psi0 and takes V0, M0: the solution is w0 e0 + M0/EI e2 + (psi0 +
+  // a V0 / (rho A w^2)) o1 - (V0/EI + b psi0) o3.
+  const Series s = series_at(w, length);
+  const Pair even = even_by_series(w, s), odd = odd_by_series(w, s);
+  const Eigen::Matrix2cd even_of_movement{{1, 0}, {0, 0}}, even_of_load{{0, 0}, {0, 1.0 / w.bending}};
+  const Eigen::Matrix2cd odd_of_movement{{0, 1}, {0, -w.b}},
+      odd_of_load{{w.a / w.inertia, 0}, {-1.0 / w.bending, 0}};
+  transfer_.movement_of_movement = even.movement * even_of_movement + odd.movement * odd_of_movement;
+  transfer_.movement_of_load = even.movement * even_of_load + odd.movement * odd_of_load;
+  transfer_.load_of_movement = even.load * even_of_movement + odd.load * odd_of_movement;
+  transfer_.load_of_load = even.load * even_of_load + odd.load * odd_of_load;
+}
+
+BeamReceptances SegmentMotion::free() const {
+  if (!short_) return free_;
+  // Nothing is taken at the end that is not pushed.
+  const Receptance<2> r21 = transfer_.load_of_movement.inverse();
+  return {transfer_.movement_of_movement * r21, r21.transpose(), r21, r21 * transfer_.load_of_load};
 }
 
 template <int N>
-Receptance<N> held_receptance(const BeamSegment& segment, BeamTheory theory, double omega_rad_per_s,
-                              const Receptance<N>& holder) {
-  const Waves w = waves_of(segment, theory, omega_rad_per_s);
-  if (series_suffice(w, segment.length_m)) {
-    // From end 2 at x = 0 with the force V0 and moment M0 that the holder takes there: w0, psi0 = H (V0, M0),
-    // and the solution is w0 e0 + M0/EI e2 + (psi0 + a V0 / (rho A w^2)) o1 - (V0/EI + b psi0) o3.
-    const Series s = series_at(w, segment.length_m);
-    const Pair even = even_by_series(w, s), odd = odd_by_series(w, s);
-    // The coefficients of e0 and e2, o1 and o3: per movement and per load at end 2.
-    const Eigen::Matrix2cd even_of_movement{{1, 0}, {0, 0}}, even_of_load{{0, 0}, {0, 1.0 / w.bending}};
-    const Eigen::Matrix2cd odd_of_movement{{0, 1}, {0, -w.b}},
-        odd_of_load{{w.a / w.inertia, 0}, {-1.0 / w.bending, 0}};
-    const auto at_end_1 = [&](const Eigen::Matrix2cd& of_even,
-                              const Eigen::Matrix2cd& of_odd) -> Receptance<N> {
-      return in_all_directions<N>(of_even * even_of_movement + of_odd * odd_of_movement) * holder +
-             in_all_directions<N>(of_even * even_of_load + of_odd * odd_of_load);
-    };
-    return at_end_1(even.movement, odd.movement) * at_end_1(even.load, odd.load).inverse();
-  }
+Receptance<N> SegmentMotion::held(const Receptance<N>& holder) const {
   // With waves on it the free segment is no rigid body any more, and holding its end cancels nothing.
-  return coupled_tip<N>(free_free_receptances(segment, theory, omega_rad_per_s), holder);
+  if (!short_) return coupled_tip<N>(free_, holder);
+  const Receptance<N> movement = in_all_directions<N>(transfer_.movement_of_movement) * holder +
+                                 in_all_directions<N>(transfer_.movement_of_load);
+  const Receptance<N> load = in_all_directions<N>(transfer_.load_of_movement) * holder +
+                             in_all_directions<N>(transfer_.load_of_load);
+  return movement * load.inverse();
 }
 
-template Receptance<2> held_receptance<2>(const BeamSegment&, BeamTheory, double, const Receptance<2>&);
-template Receptance<4> held_receptance<4>(const BeamSegment&, BeamTheory, double, const Receptance<4>&);
+template Receptance<2> SegmentMotion::held<2>(const Receptance<2>&) const;
+template Receptance<4> SegmentMotion::held<4>(const Receptance<4>&) const;
 
 }  // namespace stablecut

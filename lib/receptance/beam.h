@@ -47,15 +47,30 @@ Receptance<N> in_all_directions(const Receptance<2>& one) {
 /// Shear coefficient after Cowper of a round section or tube.
 double cowper_shear_coefficient(double inner_over_outer_diameter, double poisson_ratio);
 
-/// A segment free at both ends, at an angular frequency above 0 (rad/s). Relative error about 1e-13 from the
-/// rigid body to many waves. Throws InvalidArgument for sizes or frequencies that are not above 0.
-BeamReceptances free_free_receptances(const BeamSegment& segment, BeamTheory theory, double omega_rad_per_s);
+/// A segment at an angular frequency above 0 (rad/s). Relative error about 1e-13 from the rigid body to many
+/// waves. Throws InvalidArgument for sizes or frequencies that are not above 0.
+class SegmentMotion {
+ public:
+  SegmentMotion(const BeamSegment& segment, BeamTheory theory, double omega_rad_per_s);
 
-/// The receptance at end 1 of a segment whose end 2 is held by a part of receptance `holder` (zero: fixed).
-/// Where the segment is short for its waves this does not pass through the segment's own rigid body, and so
-/// does not cancel. N is 2 or 4.
-template <int N>
-Receptance<N> held_receptance(const BeamSegment& segment, BeamTheory theory, double omega_rad_per_s,
-                              const Receptance<N>& holder);
+  /// Free at both ends.
+  BeamReceptances free() const;
+
+  /// The receptance at end 1 when end 2 is held by a part of receptance `holder` (zero: fixed). Where the
+  /// segment is short for its waves this does not pass through its own rigid body, and so does not cancel. N
+  /// is 2 or 4.
+  template <int N>
+  Receptance<N> held(const Receptance<N>& holder) const;
+
+ private:
+  // What end 1 does and takes for what end 2 does and takes, where the segment is short; else how it moves
+  // free.
+  struct Transfer {
+    Receptance<2> movement_of_movement, movement_of_load, load_of_movement, load_of_load;
+  };
+  bool short_;
+  Transfer transfer_;
+  BeamReceptances free_;
+};
 
 }  // namespace stablecut

@@ -80,15 +80,15 @@ template <int N>
 Receptance<N> held_chain(const BeamChain& chain, BeamTheory theory, double omega,
                          const Receptance<N>& inner) {
   Receptance<N> held = inner;
-  for (std::size_t i = chain.size(); i-- > 0;) held = held_receptance<N>(chain[i], theory, omega, held);
+  for (std::size_t i = chain.size(); i-- > 0;) held = SegmentMotion(chain[i], theory, omega).held<N>(held);
   return held;
 }
 
 BeamReceptances free_chain(const BeamChain& chain, BeamTheory theory, double omega) {
   if (chain.empty()) throw InvalidArgument("no segment: expected at least one");
-  BeamReceptances whole = free_free_receptances(chain.front(), theory, omega);
+  BeamReceptances whole = SegmentMotion(chain.front(), theory, omega).free();
   for (std::size_t i = 1; i < chain.size(); ++i) {
-    whole = joined(whole, free_free_receptances(chain[i], theory, omega));
+    whole = joined(whole, SegmentMotion(chain[i], theory, omega).free());
   }
   return whole;
 }
@@ -96,9 +96,17 @@ BeamReceptances free_chain(const BeamChain& chain, BeamTheory theory, double ome
 template <int N>
 JointPlane<N> joint_plane(const BeamChain& tool, BeamTheory theory, double omega,
                           const Receptance<N>& holder) {
-  const BeamReceptances free = free_chain(tool, theory, omega);
+  if (tool.empty()) throw InvalidArgument("no segment: expected at least one");
+  // Held and free, from the joint outwards.
+  const SegmentMotion last(tool.back(), theory, omega);
+  BeamReceptances free = last.free();
   JointPlane<N> plane;
-  plane.rigid_tip = held_chain<N>(tool, theory, omega, holder);
+  plane.rigid_tip = last.held<N>(holder);
+  for (std::size_t i = tool.size() - 1; i-- > 0;) {
+    const SegmentMotion segment(tool[i], theory, omega);
+    free = joined(segment.free(), free);
+    plane.rigid_tip = segment.held<N>(plane.rigid_tip);
+  }
   plane.stiffness = (in_all_directions<N>(free.r22) + holder).inverse();
   plane.of_opening = in_all_directions<N>(free.r12) * plane.stiffness;
   plane.transmitted = plane.stiffness * in_all_directions<N>(free.r21);

@@ -55,7 +55,7 @@ TEST_CASE("free parts joined are the one free part") {
     for (const double f : {300.0, 2000.0, 9000.0}) {
       const double omega = rad_per_s_from_hz(f);
       const BeamReceptances parts = free_chain(kTool, theory, omega),
-                            whole = free_free_receptances(bar(118.92), theory, omega);
+                            whole = SegmentMotion(bar(118.92), theory, omega).free();
       CHECK(relative(parts.r11, whole.r11) < 1e-9);
       CHECK(relative(parts.r12, whole.r12) < 1e-9);
       CHECK(relative(parts.r21, whole.r21) < 1e-9);

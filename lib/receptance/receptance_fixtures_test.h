@@ -17,7 +17,7 @@ inline ToolJoint published_joint() { return {97062227, 18.633, 95978423, 10.399}
 
 /// A segment fixed at its end 2, at its end 1.
 inline Receptance<2> fixed_free_receptance(const BeamSegment& segment, BeamTheory theory, double omega) {
-  return held_receptance<2>(segment, theory, omega, Receptance<2>::Zero());
+  return SegmentMotion(segment, theory, omega).held<2>(Receptance<2>::Zero());
 }
 
 /// Largest relative difference of an entry.

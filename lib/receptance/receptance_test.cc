@@ -36,7 +36,7 @@ TEST_CASE("stub and bar joined rigidly are the cantilever, in all four receptanc
     double worst_low = 0, worst = 0;
     for (double f = 1; f <= 20000; f *= 1.01) {
       const double omega = rad_per_s_from_hz(f);
-      const Receptance<2> tip = coupled_tip<2>(free_free_receptances(bar(118.92), theory, omega),
+      const Receptance<2> tip = coupled_tip<2>(SegmentMotion(bar(118.92), theory, omega).free(),
                                                fixed_free_receptance(bar(50.90), theory, omega));
       const double error = relative(tip, fixed_free_receptance(bar(169.82), theory, omega));
       (f < 10 ? worst_low : worst) = std::max(f < 10 ? worst_low : worst, error);
@@ -56,7 +56,7 @@ TEST_CASE("the textbook forms of the free-free and the fixed-free beam, where th
     const auto c = std::cos(x), s = std::sin(x), ch = std::cosh(x), sh = std::sinh(x);
     const auto c1 = c * sh - s * ch, c2 = s * sh, c3 = s - sh, c4 = c - ch, c5 = c * sh + s * ch, c6 = s + sh;
     const auto c7 = ei * (c * ch - 1.0), c8 = ei * (c * ch + 1.0), l2 = lambda * lambda, l3 = l2 * lambda;
-    const BeamReceptances r = free_free_receptances(segment, BeamTheory::kEulerBernoulli, omega);
+    const BeamReceptances r = SegmentMotion(segment, BeamTheory::kEulerBernoulli, omega).free();
     Eigen::Matrix2cd r11, r12, fixed;
     r11 << -c1 / (l3 * c7), c2 / (l2 * c7), c2 / (l2 * c7), c5 / (lambda * c7);
     r12 << c3 / (l3 * c7), -c4 / (l2 * c7), c4 / (l2 * c7), c6 / (lambda * c7);
@@ -72,7 +72,7 @@ TEST_CASE("low frequencies: rigid body and static deflection to rounding") {
   segment.loss_factor = 0;
   const double pi = std::numbers::pi, area = pi / 4 * 0.012 * 0.012, length = segment.length_m;
   const double mass = 7800 * area * length, omega = rad_per_s_from_hz(1e-3);
-  const BeamReceptances r = free_free_receptances(segment, BeamTheory::kEulerBernoulli, omega);
+  const BeamReceptances r = SegmentMotion(segment, BeamTheory::kEulerBernoulli, omega).free();
   // A slender rod pushed at its end: -4 / (m w^2); the other end: 2 / (m w^2).
   CHECK(r.r11(0, 0).real() == Approx(-4 / (mass * omega * omega)).epsilon(1e-9));
   CHECK(r.r12(0, 0).real() == Approx(2 / (mass * omega * omega)).epsilon(1e-9));
@@ -92,10 +92,10 @@ TEST_CASE("series and functions meet; reciprocity; no overflow") {
     // Just below and above the switch the receptances are continuous: a second difference finds no step.
     for (double f = 200; f < 3000; f *= 1.001) {
       const double omega = rad_per_s_from_hz(f), step = 1e-6 * omega;
-      const auto h = [&](double w) { return free_free_receptances(bar(118.92), theory, w).r12(0, 0); };
+      const auto h = [&](double w) { return SegmentMotion(bar(118.92), theory, w).free().r12(0, 0); };
       CHECK(std::abs(h(omega - step) - 2.0 * h(omega) + h(omega + step)) < 1e-9 * std::abs(h(omega)));
     }
-    const BeamReceptances r = free_free_receptances(bar(1000), theory, rad_per_s_from_hz(1e6));
+    const BeamReceptances r = SegmentMotion(bar(1000), theory, rad_per_s_from_hz(1e6)).free();
     CHECK(r.r11.allFinite());
     CHECK((r.r11 - r.r11.transpose()).norm() < 1e-9 * r.r11.norm());
     CHECK((r.r12 - r.r21.transpose()).norm() < 1e-9 * r.r12.norm());
@@ -108,12 +108,12 @@ TEST_CASE(
   const BeamTheory theory = BeamTheory::kEulerBernoulli;
   CHECK(peak_hz(3200, 3350, [&](double w) { return fixed_free_receptance(bar(50.90), theory, w); }) ==
         Approx(3281).margin(1));
-  CHECK(peak_hz(3750, 3900, [&](double w) { return free_free_receptances(bar(118.92), theory, w).r11; }) ==
+  CHECK(peak_hz(3750, 3900, [&](double w) { return SegmentMotion(bar(118.92), theory, w).free().r11; }) ==
         Approx(3825).margin(1));
   const auto tip = [&](double w, bool with_joint) -> Receptance<2> {
     Receptance<2> held = fixed_free_receptance(bar(50.90), theory, w);
     if (with_joint) held.diagonal() += published_joint().stiffness(w).cwiseInverse();
-    return coupled_tip<2>(free_free_receptances(bar(118.92), theory, w), held);
+    return coupled_tip<2>(SegmentMotion(bar(118.92), theory, w).free(), held);
   };
   CHECK(peak_hz(280, 310, [&](double w) { return tip(w, false); }) == Approx(295).margin(0.6));
   CHECK(peak_hz(1800, 1900, [&](double w) { return tip(w, false); }) == Approx(1848).margin(0.6));
@@ -206,9 +206,9 @@ TEST_CASE("slender bars: Timoshenko tends to Euler and Bernoulli") {
 
 TEST_CASE("sizes and frequencies are above 0, tubes are open") {
   BeamSegment segment = bar(0);
-  CHECK_THROWS_AS(free_free_receptances(segment, BeamTheory::kTimoshenko, 1), InvalidArgument);
+  CHECK_THROWS_AS(SegmentMotion(segment, BeamTheory::kTimoshenko, 1).free(), InvalidArgument);
   segment = bar(100);
-  CHECK_THROWS_AS(free_free_receptances(segment, BeamTheory::kTimoshenko, 0), InvalidArgument);
+  CHECK_THROWS_AS(SegmentMotion(segment, BeamTheory::kTimoshenko, 0).free(), InvalidArgument);
   segment.inner_diameter_m = 0.012;
   CHECK_THROWS_AS(fixed_free_receptance(segment, BeamTheory::kTimoshenko, 1), InvalidArgument);
   // Cowper: 0.886 of a solid circle, about half of a thin tube.
