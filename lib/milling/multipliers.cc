@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -208,23 +207,15 @@ constexpr double kWorthStopping = 0.75;  // share of the rows from which on the 
 
 // Deterministic whatever the vectors' width: sums in lanes. Columns begin at whole lanes and are filled up
 // with zeros to whole lanes, so that loops need no ends.
-constexpr Eigen::Index kLanes = 8;
-typedef double Lanes __attribute__((vector_size(kLanes * sizeof(double))));
-
-STABLECUT_INLINE Lanes load(const double* from) {
-  Lanes v;
-  std::memcpy(&v, from, sizeof v);
-  return v;
-}
-STABLECUT_INLINE void store(const Lanes& v, double* to) { std::memcpy(to, &v, sizeof v); }
 STABLECUT_INLINE double dot(const double* a, const double* b, Eigen::Index from, Eigen::Index to) {
   Lanes sum{};
-  for (Eigen::Index i = from; i < to; i += kLanes) sum += load(a + i) * load(b + i);
-  return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
+  for (Eigen::Index i = from; i < to; i += kLanes) sum += load_lanes(a + i) * load_lanes(b + i);
+  return sum_of(sum);
 }
 STABLECUT_INLINE void add(double factor, const double* from, double* to, Eigen::Index first,
                           Eigen::Index last) {
-  for (Eigen::Index i = first; i < last; i += kLanes) store(load(to + i) + factor * load(from + i), to + i);
+  for (Eigen::Index i = first; i < last; i += kLanes)
+    store_lanes(load_lanes(to + i) + factor * load_lanes(from + i), to + i);
 }
 
 // Q A Q with the reflection Q = I - 2 v v^T / v^T v on the rows and columns from `begin` of the matrix of n

@@ -1,7 +1,5 @@
 #include "modal/pole_sums.h"
 
-#include <cstring>
-
 #include "base/wide.h"
 
 namespace stablecut {
@@ -9,19 +7,6 @@ namespace stablecut {
 using Complex = std::complex<double>;
 
 namespace {
-
-// Partial sums that do not depend on the width of the processor's vectors.
-constexpr Eigen::Index kLanes = 8;
-typedef double Lanes __attribute__((vector_size(kLanes * sizeof(double))));
-
-STABLECUT_INLINE Lanes load(const double* from) {
-  Lanes v;
-  std::memcpy(&v, from, sizeof v);
-  return v;
-}
-STABLECUT_INLINE double sum_of(const Lanes& v) {
-  return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]));
-}
 
 // 1 / (-alpha + i (w - beta)) on the lines, as real and imaginary part in turn.
 STABLECUT_WIDE void pole_on_lines(const double* __restrict omega, Eigen::Index lines, double alpha,
@@ -40,10 +25,11 @@ STABLECUT_WIDE void sums_over_lines(const double* omega, const double* w, const 
                                     double* sums) {
   Lanes w_re{}, w_im{}, a_re{}, b_im{}, a_im{}, b_re{}, s_re{}, s_im{};
   for (Eigen::Index i = 0; i < lines; i += kLanes) {
-    const Lanes off = load(omega + i) - beta;
+    const Lanes off = load_lanes(omega + i) - beta;
     const Lanes size = -1 / (alpha * alpha + off * off);
     const Lanes a = alpha * size, b = off * size;
-    const Lanes weight = load(w + i), x = load(re + i), y = load(im + i), v = load(square + i);
+    const Lanes weight = load_lanes(w + i), x = load_lanes(re + i), y = load_lanes(im + i),
+                v = load_lanes(square + i);
     w_re += a * weight;
     w_im += b * weight;
     a_re += a * x;

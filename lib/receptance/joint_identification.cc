@@ -6,11 +6,11 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "base/error.h"
 #include "dynamics/noise.h"
+#include "receptance/joint_starts.h"
 
 namespace stablecut {
 namespace {
@@ -18,200 +18,18 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr Eigen::Index kLeastLines = 4;
-// The scan: lines it looks at, values of a stiffness in a decade, loss tangents at the middle of the band.
-constexpr Eigen::Index kScanLines = 200;
-constexpr double kPerDecade = 8;
-constexpr std::array<double, 4> kLossTangents = {0, 0.01, 0.1, 1};
-constexpr int kLinearSteps = 2;
-constexpr std::size_t kInTurns = 40;
-constexpr int kTurns = 6;
-// What is tried further, on how many lines and in how many steps, and what of that is carried to the end.
+// On how many lines and in how many steps starts are tried, and how many are carried to the end.
 constexpr Eigen::Index kTrialLines = 800;
-constexpr std::size_t kTrials = 10, kFinalists = 3;
+constexpr std::size_t kFinalists = 3;
 constexpr int kTrialSteps = 15, kFinalSteps = 200;
 constexpr int kBoundRounds = 8;         // sets of values held at their bounds
 constexpr double kShareFloor = 0.01;    // of the weights that look at every line by its share
-constexpr double kSameStart = 0.2;      // distance in log stiffness
 constexpr double kDampingShare = 1e-3;  // of k / w: a damping below this is nearly none
 constexpr double kMostDeviation = 0.3;  // of a value that is identifiable
 constexpr double kNormal95 = 1.96;
 constexpr double kRounding = 1e-14;   // share of the curve's size below which nothing is noise
 constexpr double kWhite = 2;          // correlation length up to which a residual is noise
 constexpr double kBoundShare = 1e-9;  // distance in logarithms at which a value lies on its bound
-
-// What a line's tip is made of: displacement per force.
-struct Line {
-  double omega;
-  Complex measured;
-  double weight;  // of the residual
-  Complex rigid, l1, l2, r1, r2, z11, z12, z21, z22;
-
-  Line(const JointPlane<2>& plane, double omega_rad_per_s, Complex h)
-      : omega(omega_rad_per_s),
-        measured(h),
-        weight(1),
-        rigid(plane.rigid_tip(0, 0)),
-        l1(plane.of_opening(0, 0)),
-        l2(plane.of_opening(0, 1)),
-        r1(plane.transmitted(0, 0)),
-        r2(plane.transmitted(1, 0)),
-        z11(plane.stiffness(0, 0)),
-        z12(plane.stiffness(0, 1)),
-        z21(plane.stiffness(1, 0)),
-        z22(plane.stiffness(1, 1)) {}
-
-  // The same with deflection and slope of the joint in each other's places.
-  Line exchanged() const {
-    Line line = *this;
-    std::swap(line.l1, line.l2);
-    std::swap(line.r1, line.r2);
-    std::swap(line.z11, line.z22);
-    std::swap(line.z12, line.z21);
-    return line;
-  }
-  Complex stiffness(double k, double c) const { return {k, omega * c}; }
-};
-
-// The tip for joint stiffnesses K1, K2, and its derivatives in them.
-struct Tip {
-  Complex h, by_k1, by_k2;
-};
-
-Tip tip_of(const Line& n, const ToolJoint& joint) {
-  const Complex s1 = n.stiffness(joint.k1, joint.c1) + n.z11, s2 = n.stiffness(joint.k2, joint.c2) + n.z22;
-  const Complex inverse = 1.0 / (s1 * s2 - n.z12 * n.z21);
-  const Complex open1 = (s2 * n.r1 - n.z12 * n.r2) * inverse, open2 = (s1 * n.r2 - n.z21 * n.r1) * inverse;
-  const Complex back1 = (n.l1 * s2 - n.l2 * n.z21) * inverse, back2 = (n.l2 * s1 - n.l1 * n.z12) * inverse;
-  return {n.rigid + n.l1 * open1 + n.l2 * open2, -back1 * open1, -back2 * open2};
-}
-
-using Lines = std::vector<Line>;
-
-Lines thinned(const Lines& lines, Eigen::Index most) {
-  const auto size = static_cast<Eigen::Index>(lines.size());
-  const Eigen::Index stride = (size + most - 1) / most;
-  Lines result;
-  for (Eigen::Index i = 0; i < size; i += stride) result.push_back(lines[static_cast<std::size_t>(i)]);
-  return result;
-}
-
-double residual_of(const Line& line, const Tip& tip, JointObjective objective, Complex& residual) {
-  residual = objective == JointObjective::kAmplitude ? std::abs(tip.h) - std::abs(line.measured)
-                                                     : tip.h - line.measured;
-  residual *= line.weight;
-  return std::norm(residual);
-}
-
-double cost_of(const Lines& lines, const ToolJoint& joint, JointObjective objective) {
-  double sum = 0;
-  Complex residual;
-  for (const Line& line : lines) sum += residual_of(line, tip_of(line, joint), objective, residual);
-  return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
-}
-
-// ---- starts ----
-
-struct Start {
-  ToolJoint joint;
-  double cost = 0;
-};
-
-// With y = H - rigid and K2 known, eq. 6 is linear in K1 = k1 + i w c1:
-//   K1 (y S2 - l2 r2) = S2 l1 r1 - l1 z12 r2 - l2 z21 r1 + z11 l2 r2 - y (z11 S2 - z12 z21),   S2 = K2 + z22.
-// Its error over the determinant is the error of the tip: the determinant of the joint before (at first the
-// one given) weighs it, and the tip of the joint before takes the place of the noisy y among the instruments.
-ToolJoint solve_first(const Lines& lines, ToolJoint joint, double most_k1) {
-  for (int step = 0; step < kLinearSteps; ++step) {
-    double k_top = 0, k_bottom = 0, c_top = 0, c_bottom = 0;
-    for (const Line& n : lines) {
-      const Complex s2 = n.stiffness(joint.k2, joint.c2) + n.z22, y = n.measured - n.rigid;
-      const Complex a = y * s2 - n.l2 * n.r2;
-      const Complex b = s2 * n.l1 * n.r1 - n.l1 * n.z12 * n.r2 - n.l2 * n.z21 * n.r1 + n.z11 * n.l2 * n.r2 -
-                        y * (n.z11 * s2 - n.z12 * n.z21);
-      const Complex determinant = (n.stiffness(joint.k1, joint.c1) + n.z11) * s2 - n.z12 * n.z21;
-      const Complex instrument = step == 0 ? a : (tip_of(n, joint).h - n.rigid) * s2 - n.l2 * n.r2;
-      const Complex weighted = std::conj(instrument) * (n.weight * n.weight / std::norm(determinant));
-      k_top += (weighted * b).real();
-      k_bottom += (weighted * a).real();
-      // The column i w a is square to a.
-      c_top += (weighted * b).imag() * n.omega;
-      c_bottom += (weighted * a).real() * n.omega * n.omega;
-    }
-    joint.k1 = k_top / k_bottom;
-    joint.c1 = c_top / c_bottom;
-    if (!std::isfinite(joint.k1) || joint.k1 <= 0) joint.k1 = most_k1;
-    if (!std::isfinite(joint.c1) || joint.c1 < 0) joint.c1 = 0;
-  }
-  return joint;
-}
-
-ToolJoint exchanged(const ToolJoint& joint) { return {joint.k2, joint.c2, joint.k1, joint.c1}; }
-
-ToolJoint within(const ToolJoint& joint, const JointBounds& bounds) {
-  JointValues values = values_of(joint);
-  for (std::size_t i = 0; i < 4; ++i) values[i] = std::clamp(values[i], bounds.least[i], bounds.most[i]);
-  return joint_of(values);
-}
-
-bool alike(const ToolJoint& a, const ToolJoint& b) {
-  return std::abs(std::log(a.k1 / b.k1)) < kSameStart && std::abs(std::log(a.k2 / b.k2)) < kSameStart;
-}
-
-double middle_of(const Lines& lines) { return std::sqrt(lines.front().omega * lines.back().omega); }
-
-// The cheapest that differ, cheapest first.
-std::vector<Start> best_of(std::vector<Start> all, std::size_t most) {
-  std::stable_sort(all.begin(), all.end(), [](const Start& a, const Start& b) { return a.cost < b.cost; });
-  std::vector<Start> best;
-  for (const Start& start : all) {
-    if (best.size() == most) break;
-    if (std::none_of(best.begin(), best.end(), [&](const Start& b) { return alike(b.joint, start.joint); }))
-      best.push_back(start);
-  }
-  return best;
-}
-
-// One stiffness is scanned and the other solved for; the best pairs are then solved for in turns.
-std::vector<Start> starts(const Lines& all, const JointBounds& bounds, JointObjective objective) {
-  const Lines lines = thinned(all, kScanLines);
-  Lines of_slope;
-  for (const Line& line : lines) of_slope.push_back(line.exchanged());
-  const double omega = middle_of(lines);
-  const auto first_solved = [&](const ToolJoint& joint) { return solve_first(lines, joint, bounds.most[0]); };
-  const auto second_solved = [&](const ToolJoint& joint) {
-    return exchanged(solve_first(of_slope, exchanged(joint), bounds.most[2]));
-  };
-  const auto judged = [&](const ToolJoint& joint) {
-    const ToolJoint inside = within(joint, bounds);
-    return Start{inside, cost_of(lines, inside, objective)};
-  };
-  std::vector<Start> found;
-  for (const std::size_t scanned : {0, 2}) {
-    const double decades = std::log10(bounds.most[scanned] / bounds.least[scanned]);
-    const int count = 2 + static_cast<int>(kPerDecade * decades);
-    for (int i = 0; i < count; ++i) {
-      const double k = bounds.least[scanned] * std::pow(10, decades * i / (count - 1));
-      for (const double tangent : kLossTangents) {
-        const double c = std::clamp(tangent * k / omega, bounds.least[scanned + 1], bounds.most[scanned + 1]);
-        for (const bool stiff : {false, true}) {
-          const double other = stiff ? bounds.most[2 - scanned] : 0;
-          found.push_back(
-              judged(scanned == 0 ? second_solved({k, c, other, 0}) : first_solved({other, 0, k, c})));
-        }
-      }
-    }
-  }
-  found = best_of(std::move(found), kInTurns);
-  for (Start& start : found) {
-    ToolJoint joint = start.joint;
-    for (int turn = 0; turn < kTurns; ++turn) joint = first_solved(second_solved(joint));
-    if (const Start solved = judged(joint); solved.cost < start.cost) start = solved;
-  }
-  return best_of(std::move(found), kTrials);
-}
-
-// ---- refinement ----
-
 // The solver's coordinates: log k, and log (c + s), which goes through c = 0, with s a small share of k / w.
 class LogJoint {
  public:
@@ -226,7 +44,7 @@ class LogJoint {
 };
 
 // Derivatives of the residual (real and imaginary part) by the four values.
-Eigen::Matrix<double, 2, 4> derivatives(const Line& line, const Tip& tip, JointObjective objective) {
+Eigen::Matrix<double, 2, 4> derivatives(const TipLine& line, const Tip& tip, JointObjective objective) {
   std::array<Complex, 4> by = {tip.by_k1, Complex(0, line.omega) * tip.by_k1, tip.by_k2,
                                Complex(0, line.omega) * tip.by_k2};
   Eigen::Matrix<double, 2, 4> result;
@@ -239,7 +57,7 @@ Eigen::Matrix<double, 2, 4> derivatives(const Line& line, const Tip& tip, JointO
 
 class TipCost : public ceres::CostFunction {
  public:
-  TipCost(const Lines& lines, const LogJoint& coordinates, JointObjective objective)
+  TipCost(const TipLines& lines, const LogJoint& coordinates, JointObjective objective)
       : lines_(lines), coordinates_(coordinates), objective_(objective) {
     set_num_residuals(static_cast<int>(2 * lines.size()));
     mutable_parameter_block_sizes()->push_back(4);
@@ -267,15 +85,15 @@ class TipCost : public ceres::CostFunction {
   }
 
  private:
-  const Lines& lines_;
+  const TipLines& lines_;
   const LogJoint& coordinates_;
   JointObjective objective_;
 };
 
 // Values that the bounds hold back are taken out of the problem, one set after the other: a step that is
 // only cut at them may not descend.
-Start refined(const Lines& lines, const ToolJoint& start, const JointBounds& bounds, JointObjective objective,
-              int steps) {
+JointStart refined(const TipLines& lines, const ToolJoint& start, const JointBounds& bounds,
+                   JointObjective objective, int steps) {
   const LogJoint coordinates(start, middle_of(lines));
   const JointValues first = values_of(within(start, bounds));
   std::array<double, 4> u{}, least{}, most{};
@@ -325,22 +143,23 @@ Start refined(const Lines& lines, const ToolJoint& start, const JointBounds& bou
   return {joint, cost_of(lines, joint, objective)};
 }
 
-Start best_joint(const Lines& lines, const JointBounds& bounds, JointObjective objective) {
-  const Lines few = thinned(lines, kTrialLines);
-  std::vector<Start> trials = starts(lines, bounds, objective);
+JointStart best_joint(const TipLines& lines, const JointBounds& bounds, JointObjective objective) {
+  const TipLines few = thinned(lines, kTrialLines);
+  std::vector<JointStart> trials = joint_starts(lines, bounds, objective);
   // A few lines on sharp peaks may outweigh all others: once more with every line by its share.
-  Lines by_share = lines;
-  for (Line& line : by_share) line.weight = 1 / std::max(std::abs(line.measured), kShareFloor / line.weight);
-  for (const Start& start : starts(by_share, bounds, objective)) trials.push_back(start);
-  for (Start& trial : trials) trial = refined(few, trial.joint, bounds, objective, kTrialSteps);
+  TipLines by_share = lines;
+  for (TipLine& line : by_share)
+    line.weight = 1 / std::max(std::abs(line.measured), kShareFloor / line.weight);
+  for (const JointStart& start : joint_starts(by_share, bounds, objective)) trials.push_back(start);
+  for (JointStart& trial : trials) trial = refined(few, trial.joint, bounds, objective, kTrialSteps);
   trials = best_of(std::move(trials), kFinalists);
-  for (Start& trial : trials) trial = refined(lines, trial.joint, bounds, objective, kFinalSteps);
+  for (JointStart& trial : trials) trial = refined(lines, trial.joint, bounds, objective, kFinalSteps);
   return best_of(std::move(trials), 1).front();
 }
 
 // ---- noise and verdict ----
 
-Eigen::VectorXcd model_of(const Lines& lines, const ToolJoint& joint) {
+Eigen::VectorXcd model_of(const TipLines& lines, const ToolJoint& joint) {
   Eigen::VectorXcd model(static_cast<Eigen::Index>(lines.size()));
   for (Eigen::Index i = 0; i < model.size(); ++i) {
     model[i] = tip_of(lines[static_cast<std::size_t>(i)], joint).h;
@@ -355,8 +174,8 @@ double surprise(const Eigen::VectorXcd& residual, const Eigen::VectorXd& size) {
 }
 
 // Standard deviations of the values that are not at a bound. `known_noise`: the weights are 1 / deviation.
-void set_deviations(const Lines& lines, const JointBounds& bounds, JointObjective objective, bool known_noise,
-                    JointEstimate& estimate) {
+void set_deviations(const TipLines& lines, const JointBounds& bounds, JointObjective objective,
+                    bool known_noise, JointEstimate& estimate) {
   const JointValues values = values_of(estimate.joint);
   std::vector<Eigen::Index> open;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -420,7 +239,7 @@ ToolJoint joint_of(const JointValues& values) { return {values[0], values[1], va
 
 JointEstimate identify_joint(const JointData& data, const JointBounds& bounds, JointObjective objective) {
   check(data, bounds);
-  Lines lines;
+  TipLines lines;
   for (Eigen::Index i = 0; i < data.tip.size(); ++i) {
     lines.emplace_back(data.plane[static_cast<std::size_t>(i)], data.omega_rad_per_s[i], data.tip[i]);
   }
@@ -436,7 +255,7 @@ JointEstimate identify_joint(const JointData& data, const JointBounds& bounds, J
   };
   weigh([&](Eigen::Index n) { return known ? data.variance[n] : size * size; });
 
-  Start best = best_joint(lines, bounds, objective);
+  JointStart best = best_joint(lines, bounds, objective);
   if (!std::isfinite(best.cost)) throw NoAnswer("no joint within the bounds gives a finite receptance");
   if (!known && objective == JointObjective::kComplex) {
     // The noise may be a share of the value. Then the fit that says so leaves white noise and is likelier.
@@ -446,7 +265,7 @@ JointEstimate identify_joint(const JointData& data, const JointBounds& bounds, J
     if ((model - data.tip).norm() > kRounding * data.tip.norm() &&
         surprise(model - data.tip, model.cwiseAbs()) < expected) {
       weigh([&](Eigen::Index n) { return std::norm(model[n]); });
-      const Start share = refined(lines, best.joint, bounds, objective, kFinalSteps);
+      const JointStart share = refined(lines, best.joint, bounds, objective, kFinalSteps);
       const Eigen::VectorXcd of_share = model_of(lines, share.joint);
       const Eigen::VectorXd noise = of_share.cwiseAbs();
       if (surprise(of_share - data.tip, noise) < expected &&

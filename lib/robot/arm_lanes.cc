@@ -12,21 +12,21 @@ namespace {
 
 // Four doubles that the compiler keeps in vector registers: one of 256 bits where there are such, else two of
 // 128.
-typedef double Lanes __attribute__((vector_size(kArms * sizeof(double))));
+typedef double Four __attribute__((vector_size(kArms * sizeof(double))));
 
 constexpr double kReachTolerance = 1e-12;  // relative
 constexpr double kFreeRadius = 1e-10;      // m: nearer to axis 1 than this, joint 1 is free
 constexpr double kFreeSine = 1e-11;        // axes 4 and 6 nearer in line than this: joint 4 is free
 
-STABLECUT_INLINE Lanes square_root(const Lanes& v) {
-  return Lanes{__builtin_sqrt(v[0]), __builtin_sqrt(v[1]), __builtin_sqrt(v[2]), __builtin_sqrt(v[3])};
+STABLECUT_INLINE Four square_root(const Four& v) {
+  return Four{__builtin_sqrt(v[0]), __builtin_sqrt(v[1]), __builtin_sqrt(v[2]), __builtin_sqrt(v[3])};
 }
-STABLECUT_INLINE Lanes size_of(const Lanes& v) { return v < 0 ? -v : v; }
-STABLECUT_INLINE Lanes least(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
-STABLECUT_INLINE Lanes largest_of(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
-STABLECUT_INLINE void store(const Lanes& v, double* to) { std::memcpy(to, &v, sizeof v); }
-STABLECUT_INLINE Lanes load(const double* from) {
-  Lanes v;
+STABLECUT_INLINE Four size_of(const Four& v) { return v < 0 ? -v : v; }
+STABLECUT_INLINE Four least(const Four& a, const Four& b) { return a < b ? a : b; }
+STABLECUT_INLINE Four largest_of(const Four& a, const Four& b) { return a > b ? a : b; }
+STABLECUT_INLINE void store(const Four& v, double* to) { std::memcpy(to, &v, sizeof v); }
+STABLECUT_INLINE Four load(const double* from) {
+  Four v;
   std::memcpy(&v, from, sizeof v);
   return v;
 }
@@ -39,34 +39,34 @@ constexpr double kA[11] = {-0.3333333333333333,  0.1999999999999552,   -0.142857
                            0.039231657085083686, -0.019176885636589053};
 
 // Without branches: |y/x| or |x/y|, whichever is at most 1, and above tan(pi/8) the distance from pi/4.
-STABLECUT_INLINE Lanes angle_of(const Lanes& y, const Lanes& x) {
-  const Lanes ax = size_of(x), ay = size_of(y);
-  const Lanes large = largest_of(ax, ay), small = least(ax, ay);
+STABLECUT_INLINE Four angle_of(const Four& y, const Four& x) {
+  const Four ax = size_of(x), ay = size_of(y);
+  const Four large = largest_of(ax, ay), small = least(ax, ay);
   const auto upper = small > 0.41421356237309503 * large;
-  const Lanes denominator = upper ? small + large : large;
-  const Lanes t = (upper ? small - large : small) / (denominator > 0 ? denominator : Lanes{} + 1);
-  const Lanes s = t * t;
-  Lanes p = Lanes{} + kA[10];
+  const Four denominator = upper ? small + large : large;
+  const Four t = (upper ? small - large : small) / (denominator > 0 ? denominator : Four{} + 1);
+  const Four s = t * t;
+  Four p = Four{} + kA[10];
   for (int i = 9; i >= 0; --i) p = p * s + kA[i];
-  Lanes angle = t + t * s * p + (upper ? Lanes{} + 0.25 * kPi : Lanes{});
+  Four angle = t + t * s * p + (upper ? Four{} + 0.25 * kPi : Four{});
   angle = ay > ax ? 0.5 * kPi - angle : angle;
   angle = x < 0 ? kPi - angle : angle;
   return y < 0 ? -angle : angle;
 }
 
 // Rounds by adding what has no fraction bits, which is the same on every processor.
-STABLECUT_INLINE Lanes nearest_whole(const Lanes& value) {
+STABLECUT_INLINE Four nearest_whole(const Four& value) {
   constexpr double kShift = 6755399441055744.0;  // 1.5 * 2^52
   return (value + kShift) - kShift;
 }
 
 // theta -> the controller angle nearest the middle of the range.
-STABLECUT_INLINE Lanes controller_angle(const ArmConstants& robot, int joint, const Lanes& theta) {
-  const Lanes angle = robot.sign[joint] * (theta - robot.offset[joint]);
+STABLECUT_INLINE Four controller_angle(const ArmConstants& robot, int joint, const Four& theta) {
+  const Four angle = robot.sign[joint] * (theta - robot.offset[joint]);
   return angle + kTwoPi * nearest_whole((robot.middle[joint] - angle) * (1 / kTwoPi));
 }
 
-STABLECUT_INLINE Lanes joint_margin(const ArmConstants& robot, int joint, const Lanes& angle) {
+STABLECUT_INLINE Four joint_margin(const ArmConstants& robot, int joint, const Four& angle) {
   return robot.half_range[joint] - size_of(angle - robot.middle[joint]);
 }
 
@@ -76,20 +76,20 @@ STABLECUT_INLINE Lanes joint_margin(const ArmConstants& robot, int joint, const 
 // series, whose next terms are below 5e-17.
 STABLECUT_WIDE void sines_and_cosines(const double angle[8], double sine[8], double cosine[8]) {
   constexpr double kHigh = 0x1.921fb544p+0, kMiddle = 0x1.0b4611a6p-34, kLow = 0x1.3198a2e037073p-69;
-  const Lanes one = Lanes{} + 1;
+  const Four one = Four{} + 1;
   for (int half = 0; half < 8; half += kArms) {
-    const Lanes x = load(angle + half);
-    const Lanes k = nearest_whole(x * (2 / kPi));
-    const Lanes r = ((x - k * kHigh) - k * kMiddle) - k * kLow;
-    const Lanes r2 = r * r;
-    Lanes s = one, c = one;
+    const Four x = load(angle + half);
+    const Four k = nearest_whole(x * (2 / kPi));
+    const Four r = ((x - k * kHigh) - k * kMiddle) - k * kLow;
+    const Four r2 = r * r;
+    Four s = one, c = one;
     for (int n = 16; n >= 2; n -= 2) {
       c = 1 - r2 * c * (1.0 / (n * (n - 1)));
       if (n <= 14) s = 1 - r2 * s * (1.0 / (n * (n + 1)));
     }
     s = r * s;
-    const Lanes quarter = k - 4 * nearest_whole(0.25 * k - 0.375);
-    const Lanes s_or_c = quarter == 1 || quarter == 3 ? c : s, c_or_s = quarter == 1 || quarter == 3 ? s : c;
+    const Four quarter = k - 4 * nearest_whole(0.25 * k - 0.375);
+    const Four s_or_c = quarter == 1 || quarter == 3 ? c : s, c_or_s = quarter == 1 || quarter == 3 ? s : c;
     store(quarter >= 2 ? -s_or_c : s_or_c, sine + half);
     store(quarter == 1 || quarter == 2 ? -c_or_s : c_or_s, cosine + half);
   }
@@ -128,17 +128,17 @@ STABLECUT_WIDE void solve_arms(const ArmConstants& robot, const ArmTarget& targe
   const double v = k.cos_alpha1 * y1 + k.sin_alpha1 * wz;
   const double sum2 = k.a2 * k.a2 + k.forearm * k.forearm, per_2al = 0.5 / (k.a2 * k.forearm);
   const double wrist45 = k.wrist4 * k.wrist5;
-  const Lanes front = {1, 1, -1, -1}, side = {1, -1, 1, -1};
-  const Lanes zero = {}, one = zero + 1;
+  const Four front = {1, 1, -1, -1}, side = {1, -1, 1, -1};
+  const Four zero = {}, one = zero + 1;
 
   // Shoulder.
-  const Lanes x1 = front * x1_size;
-  const Lanes c1 = (wx * x1 + wy * y1) * per_radius2 + free_c1;
-  const Lanes s1 = (wy * x1 - wx * y1) * per_radius2 + free_s1;
+  const Four x1 = front * x1_size;
+  const Four c1 = (wx * x1 + wy * y1) * per_radius2 + free_c1;
+  const Four s1 = (wy * x1 - wx * y1) * per_radius2 + free_s1;
   // The planar pair: u + i v = exp(i theta2) (a2 + forearm exp(i bent)).
-  const Lanes u = x1 - k.a1;
-  const Lanes reach2 = u * u + v * v;
-  const Lanes cos_bent_raw = (reach2 - sum2) * per_2al;
+  const Four u = x1 - k.a1;
+  const Four reach2 = u * u + v * v;
+  const Four cos_bent_raw = (reach2 - sum2) * per_2al;
   const auto bends = size_of(cos_bent_raw) <= 1 + kReachTolerance;
   if (!shoulder_reaches || !(bends[0] || bends[2])) {  // the elbow's side does not matter here
     const double sixth[3] = {z6[0], z6[1], z6[2]}, wrist[3] = {wx, wy, wz};
@@ -150,54 +150,54 @@ STABLECUT_WIDE void solve_arms(const ArmConstants& robot, const ArmTarget& targe
     for (double& margin : out.limit_margin) margin = -std::numeric_limits<double>::infinity();
     return;
   }
-  const Lanes cb = least(largest_of(cos_bent_raw, Lanes{} - 1), Lanes{} + 1);
-  const Lanes sb = side * square_root((1 - cb) * (1 + cb));
-  const Lanes tx = k.a2 + k.forearm * cb, ty = k.forearm * sb;
-  const Lanes size2 = reach2 * (tx * tx + ty * ty);
+  const Four cb = least(largest_of(cos_bent_raw, Four{} - 1), Four{} + 1);
+  const Four sb = side * square_root((1 - cb) * (1 + cb));
+  const Four tx = k.a2 + k.forearm * cb, ty = k.forearm * sb;
+  const Four size2 = reach2 * (tx * tx + ty * ty);
   const auto opened = size2 > 1e-40;
-  const Lanes per_size = 1 / square_root(opened ? size2 : one);
-  const Lanes c2 = opened ? (u * tx + v * ty) * per_size : one;
-  const Lanes s2 = opened ? (v * tx - u * ty) * per_size : zero;
-  const Lanes cp = cb * k.cos_bend + sb * k.sin_bend, sp = sb * k.cos_bend - cb * k.sin_bend;
-  const Lanes c23 = c2 * cp - s2 * sp, s23 = s2 * cp + c2 * sp;
+  const Four per_size = 1 / square_root(opened ? size2 : one);
+  const Four c2 = opened ? (u * tx + v * ty) * per_size : one;
+  const Four s2 = opened ? (v * tx - u * ty) * per_size : zero;
+  const Four cp = cb * k.cos_bend + sb * k.sin_bend, sp = sb * k.cos_bend - cb * k.sin_bend;
+  const Four c23 = c2 * cp - s2 * sp, s23 = s2 * cp + c2 * sp;
   // Axes of frame 3 turned by alpha3: m4x, m4y, m4z; m4z is axis 4.
-  const Lanes f1yx = -s1 * k.cos_alpha1, f1yy = c1 * k.cos_alpha1, f1yz = zero + k.sin_alpha1;
-  const Lanes f1zx = s1 * k.sin_alpha1, f1zy = -c1 * k.sin_alpha1, f1zz = zero + k.cos_alpha1;
-  const Lanes exx = c23 * c1 + s23 * f1yx, exy = c23 * s1 + s23 * f1yy, exz = s23 * f1yz;
-  const Lanes eyx = c23 * f1yx - s23 * c1, eyy = c23 * f1yy - s23 * s1, eyz = c23 * f1yz;
-  const Lanes ax = k.cos_alpha3 * eyx + k.sin_alpha3 * f1zx, ay = k.cos_alpha3 * eyy + k.sin_alpha3 * f1zy,
-              az = k.cos_alpha3 * eyz + k.sin_alpha3 * f1zz;
-  const Lanes bx = k.cos_alpha3 * f1zx - k.sin_alpha3 * eyx, by = k.cos_alpha3 * f1zy - k.sin_alpha3 * eyy,
-              bz = k.cos_alpha3 * f1zz - k.sin_alpha3 * eyz;
+  const Four f1yx = -s1 * k.cos_alpha1, f1yy = c1 * k.cos_alpha1, f1yz = zero + k.sin_alpha1;
+  const Four f1zx = s1 * k.sin_alpha1, f1zy = -c1 * k.sin_alpha1, f1zz = zero + k.cos_alpha1;
+  const Four exx = c23 * c1 + s23 * f1yx, exy = c23 * s1 + s23 * f1yy, exz = s23 * f1yz;
+  const Four eyx = c23 * f1yx - s23 * c1, eyy = c23 * f1yy - s23 * s1, eyz = c23 * f1yz;
+  const Four ax = k.cos_alpha3 * eyx + k.sin_alpha3 * f1zx, ay = k.cos_alpha3 * eyy + k.sin_alpha3 * f1zy,
+             az = k.cos_alpha3 * eyz + k.sin_alpha3 * f1zz;
+  const Four bx = k.cos_alpha3 * f1zx - k.sin_alpha3 * eyx, by = k.cos_alpha3 * f1zy - k.sin_alpha3 * eyy,
+             bz = k.cos_alpha3 * f1zz - k.sin_alpha3 * eyz;
   // M = Rz(theta4) Rx(alpha4) Rz(theta5) Rx(alpha5) Rz(theta6), its first and third columns.
-  const Lanes m11 = exx * x6[0] + exy * x6[1] + exz * x6[2], m21 = ax * x6[0] + ay * x6[1] + az * x6[2],
-              m31 = bx * x6[0] + by * x6[1] + bz * x6[2];
-  const Lanes m13 = exx * z6[0] + exy * z6[1] + exz * z6[2], m23 = ax * z6[0] + ay * z6[1] + az * z6[2],
-              m33 = bx * z6[0] + by * z6[1] + bz * z6[2];
+  const Four m11 = exx * x6[0] + exy * x6[1] + exz * x6[2], m21 = ax * x6[0] + ay * x6[1] + az * x6[2],
+             m31 = bx * x6[0] + by * x6[1] + bz * x6[2];
+  const Four m13 = exx * z6[0] + exy * z6[1] + exz * z6[2], m23 = ax * z6[0] + ay * z6[1] + az * z6[2],
+             m33 = bx * z6[0] + by * z6[1] + bz * z6[2];
   // m13 = c4 s5 wrist5, m23 = s4 s5 wrist5, m33 = -wrist45 c5; here with s5 >= 0.
-  const Lanes s5 = square_root(m13 * m13 + m23 * m23), c5 = -wrist45 * m33;
+  const Four s5 = square_root(m13 * m13 + m23 * m23), c5 = -wrist45 * m33;
   const auto in_line = s5 < kFreeSine;
-  const Lanes per_s5 = k.wrist5 / (in_line ? one : s5);
-  const Lanes c4 = in_line ? zero + k.cos_free4 : m13 * per_s5,
-              s4 = in_line ? zero + k.sin_free4 : m23 * per_s5;
+  const Four per_s5 = k.wrist5 / (in_line ? one : s5);
+  const Four c4 = in_line ? zero + k.cos_free4 : m13 * per_s5,
+             s4 = in_line ? zero + k.sin_free4 : m23 * per_s5;
   // theta6 from what is left after theta4 and theta5: well conditioned in every pose.
-  const Lanes lx = c4 * m11 + s4 * m21, ly = c4 * m21 - s4 * m11;
-  const Lanes c6 = c5 * lx + k.wrist4 * s5 * m31, s6 = -wrist45 * ly;
+  const Four lx = c4 * m11 + s4 * m21, ly = c4 * m21 - s4 * m11;
+  const Four c6 = c5 * lx + k.wrist4 * s5 * m31, s6 = -wrist45 * ly;
 
-  const Lanes theta4 = angle_of(s4, c4), theta5 = angle_of(s5, c5), theta6 = angle_of(s6, c6);
-  const Lanes arm_angles[3] = {controller_angle(k, 0, angle_of(s1, c1)),
-                               controller_angle(k, 1, angle_of(s2, c2)),
-                               controller_angle(k, 2, angle_of(k.elbow_sense * sp, cp))};
-  const Lanes wrist_angles[2][3] = {
+  const Four theta4 = angle_of(s4, c4), theta5 = angle_of(s5, c5), theta6 = angle_of(s6, c6);
+  const Four arm_angles[3] = {controller_angle(k, 0, angle_of(s1, c1)),
+                              controller_angle(k, 1, angle_of(s2, c2)),
+                              controller_angle(k, 2, angle_of(k.elbow_sense * sp, cp))};
+  const Four wrist_angles[2][3] = {
       {controller_angle(k, 3, theta4), controller_angle(k, 4, theta5), controller_angle(k, 5, theta6)},
       {controller_angle(k, 3, theta4 + kPi), controller_angle(k, 4, -theta5),
        controller_angle(k, 5, theta6 + kPi)}};
-  Lanes arm_margin = joint_margin(k, 0, arm_angles[0]);
+  Four arm_margin = joint_margin(k, 0, arm_angles[0]);
   for (int j = 1; j < 3; ++j) arm_margin = least(arm_margin, joint_margin(k, j, arm_angles[j]));
-  const Lanes nowhere = zero - std::numeric_limits<double>::infinity();
+  const Four nowhere = zero - std::numeric_limits<double>::infinity();
   arm_margin = bends ? arm_margin : nowhere;
   for (int w = 0; w < 2; ++w) {
-    Lanes margin = arm_margin;
+    Four margin = arm_margin;
     for (int j = 0; j < 3; ++j) {
       store(arm_angles[j], out.angle[j] + w * kArms);
       store(wrist_angles[w][j], out.angle[3 + j] + w * kArms);
@@ -238,15 +238,14 @@ STABLECUT_WIDE void arm_compliances(const ArmLanes& lanes, const double point[3]
   const double xx = c1 * v1x * v1x + c6 * v6x * v6x, xy = c1 * v1x * v1y + c6 * v6x * v6y,
                xz = c6 * v6x * v6z;
   const double yy = c1 * v1y * v1y + c6 * v6y * v6y, yz = c6 * v6y * v6z, zz = c6 * v6z * v6z;
-  const auto along = [](const double axis[3][kArms], const Lanes& x, const Lanes& y, const Lanes& z,
-                        Lanes v[3]) {
-    const Lanes ax = load(axis[0]), ay = load(axis[1]), az = load(axis[2]);
+  const auto along = [](const double axis[3][kArms], const Four& x, const Four& y, const Four& z, Four v[3]) {
+    const Four ax = load(axis[0]), ay = load(axis[1]), az = load(axis[2]);
     v[0] = ay * z - az * y;
     v[1] = az * x - ax * z;
     v[2] = ax * y - ay * x;
   };
-  const Lanes zero = {};
-  Lanes v2[3], v3[3], v4[3], v5[3];
+  const Four zero = {};
+  Four v2[3], v3[3], v4[3], v5[3];
   along(lanes.axis2, px - load(lanes.point2[0]), py - load(lanes.point2[1]), pz - load(lanes.point2[2]), v2);
   along(lanes.axis2, px - load(lanes.point3[0]), py - load(lanes.point3[1]), pz - load(lanes.point3[2]), v3);
   along(lanes.axis4, zero + rx, zero + ry, zero + rz, v4);
@@ -264,19 +263,19 @@ STABLECUT_WIDE void arm_compliances(const ArmLanes& lanes, const double point[3]
 
 // q + 2 p cos(acos(r) / 3), with q the mean, p and r from the second and third invariants of the deviator.
 STABLECUT_WIDE void largest_arm_compliances(const double compliance[6][kArms], double largest[kArms]) {
-  const Lanes xx = load(compliance[0]), xy = load(compliance[1]), xz = load(compliance[2]);
-  const Lanes yy = load(compliance[3]), yz = load(compliance[4]), zz = load(compliance[5]);
-  const Lanes mean = (xx + yy + zz) * (1.0 / 3);
-  const Lanes a = xx - mean, b = yy - mean, c = zz - mean;
-  const Lanes p2 = (a * a + b * b + c * c + 2 * (xy * xy + xz * xz + yz * yz)) * (1.0 / 6);
-  const Lanes p = square_root(p2), zero = {}, one = zero + 1;
-  const Lanes determinant = a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz);
-  const Lanes ratio = p2 > 0 ? 0.5 * determinant / (p2 * p) : zero;
-  const Lanes r = least(one, largest_of(-one, ratio));
-  const Lanes third = angle_of(square_root((1 - r) * (1 + r)), r) * (1.0 / 3);
+  const Four xx = load(compliance[0]), xy = load(compliance[1]), xz = load(compliance[2]);
+  const Four yy = load(compliance[3]), yz = load(compliance[4]), zz = load(compliance[5]);
+  const Four mean = (xx + yy + zz) * (1.0 / 3);
+  const Four a = xx - mean, b = yy - mean, c = zz - mean;
+  const Four p2 = (a * a + b * b + c * c + 2 * (xy * xy + xz * xz + yz * yz)) * (1.0 / 6);
+  const Four p = square_root(p2), zero = {}, one = zero + 1;
+  const Four determinant = a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz);
+  const Four ratio = p2 > 0 ? 0.5 * determinant / (p2 * p) : zero;
+  const Four r = least(one, largest_of(-one, ratio));
+  const Four third = angle_of(square_root((1 - r) * (1 + r)), r) * (1.0 / 3);
   // cos on [0, pi/3] by its series; the next term is below 1e-17.
-  const Lanes t2 = third * third;
-  Lanes cosine = one;
+  const Four t2 = third * third;
+  Four cosine = one;
   for (int n = 18; n >= 2; n -= 2) cosine = 1 - t2 * cosine * (1.0 / (n * (n - 1)));
   store(mean + 2 * p * cosine, largest);
 }
