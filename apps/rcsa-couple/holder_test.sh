@@ -35,8 +35,20 @@ rcsa-couple difference.json -o difference-out.json 2>log
 check_jq "the finite difference" difference-out.json '.holder.x == .holder.y and .holder.x.slopes == "finite difference" and .holder.x.spacing_mm == 45 and .holder.x.moment_to_slope == "l n / h"'
 check "its limits are said" grep -q 'finite difference over 45 mm, good where the part bends little' log
 check "one direction serves both, and says so" grep -q 'yy is missing: y is taken as x' log
-jq '.holder.sensor_mass_g = 2' difference.json | rcsa-couple --quiet -o lighter.json
-check_jq "a sensor's mass taken away" lighter.json '.h[0].re != $with[0].h[0].re' --slurpfile with difference-out.json
+# A sensor's mass: taps loaded by it on the artefact, and without it.
+jq '{format, frequency_hz: {from: 50, to: 4000, count: 396}, beam_theory, materials, tool: .holder.end.artefact, holder: {modal_table: {file: "spindle-modes.json"}}, joint: "rigid"}' carbide-in-collet.json >artefact.json
+rcsa-couple artefact.json --positions 0,45 -o light.json
+jq '.sensor_mass_g = 8' artefact.json | rcsa-couple -o loaded-tip.json
+jq --slurpfile tip loaded-tip.json '.frequency_hz as $f | .h |= map(select(.response == .reference)) | .h |= map(. as $e
+  | ([$tip[0].h[] | select(.response == $e.response and .reference == $e.response)][0]) as $w
+  | select(.response_position_mm == 0) | if .reference_position_mm == 0 then .re = $w.re | .im = $w.im else
+    ([$f, .re, .im, $w.re, $w.im] | transpose | map(. as [$hz, $a, $b, $c, $d] | (0.008 * pow(6.283185307179586 * $hz; 2)) as $m
+      | [$a + $m * ($a * $c - $b * $d), $b + $m * ($a * $d + $b * $c)])) as $new | .re = ($new | map(.[0])) | .im = ($new | map(.[1])) end)' light.json >loaded.json
+jq '.h |= map(select(.response == .reference and .response_position_mm == 0))' light.json >free.json
+for taps in loaded free; do
+  jq --arg f $taps.json --argjson m "$([ $taps = loaded ] && echo 8 || echo 0)" '.frequency_hz.count = 396 | .holder = {receptances: {file: $f}, sensor_mass_g: $m}' carbide-in-collet.json | rcsa-couple --quiet -o $taps-out.json
+done
+check_jq "a sensor's mass taken away" loaded-out.json "$close [.h[0], \$free[0].h[0]] | close(1e-6)" --slurpfile free free-out.json
 
 with() {
   jq "$2" "$1" >bad.json
@@ -45,6 +57,7 @@ with() {
 taps=carbide-in-collet.json
 with $taps '.holder.end = {}' 65 'bad.json: /holder/end/receptances: missing'
 with $taps '.holder.end.modal_table = {}' 65 'bad.json: /holder/end/receptances: .*not both'
+with $taps '.holder.modal_table = {file: "spindle-modes.json"}' 65 'bad.json: /holder/segments: .*expected segments with an end'
 with $taps '.holder.end.receptances.file = "none.json"' 66 'none.json: cannot be read'
 with $taps '.holder.end.receptances.file = "spindle-modes.json"' 65 'spindle-modes.json: /format: .*expected "stablecut/frf/1"'
 with $taps '.frequency_hz.to = 5000' 65 'bad.json: /holder/end/receptances: line at 4.* Hz: expected the measured band, 50'

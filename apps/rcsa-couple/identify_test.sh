@@ -21,6 +21,8 @@ for name in k1 c1 k2; do check "it says that $name is at its bound" grep -q "$na
 jq '.h |= [.[3]] | .frequency_hz |= .[99:4000] | .h[0].re |= .[99:4000] | .h[0].im |= .[99:4000]' joint.json >one.json
 jq '.frequency_hz = [200, 3000]' "$assembly" | rcsa-couple --identify one.json -o one-found.json
 check_jq "one direction, its name, lines and band" one-found.json "$near"' .direction == "y" and .lines == 2801 and .band_hz == [200, 3000] and (.k1_n_per_m | near(97062227; 1e-4))'
+rcsa-couple --joint one-found.json "$assembly" -o one-used.json 2>log
+check "one direction's joint serves both, and says so" grep -q 'one-found.json: identified in y only: taken for x as well' log
 jq '.joint = {x: .joint, y: (.joint | .k1_n_per_m = 2e7)}' "$assembly" | rcsa-couple -o two.json
 rcsa-couple --identify two.json "$assembly" --fitted fitted.json --rigid without.json -o two-found.json
 check_jq "x and y apart" two-found.json "$near"' (.x.k1_n_per_m | near(97062227; 1e-6)) and (.y.k1_n_per_m | near(2e7; 1e-6))'

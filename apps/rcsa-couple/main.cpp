@@ -2,8 +2,13 @@
 // measured tip in, and the joint out.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -23,7 +28,7 @@ constexpr std::array<const char*, 2> kDirections = {"x", "y"};
 constexpr std::array<const char*, 4> kJointNames = {"k1", "c1", "k2", "c2"};
 constexpr double kNoFit = 0.5;    // relative residual from which on no joint explains the tip
 constexpr double kPoorFit = 0.1;  // from which on a line says so
-constexpr std::size_t kMostPositions = 50;
+constexpr std::size_t kMostPositions = 10;
 
 class RcsaCouple : public cli::Tool {
  public:
@@ -73,24 +78,12 @@ class RcsaCouple : public cli::Tool {
 
   // ---- options ----
 
-  static std::vector<std::string> parts_of(const std::string& text) {
-    std::vector<std::string> parts = {""};
-    for (const char c : text) {
-      if (c == ',') {
-        parts.emplace_back();
-      } else {
-        parts.back() += c;
-      }
-    }
-    return parts;
-  }
-
   void take_positions(const std::string& text) {
-    for (const std::string& part : parts_of(text)) {
+    for (const std::string_view part : split(text, ',')) {
       const auto position = parse_number(part);
       if (!position || *position < 0 || positions_m_.size() == kMostPositions)
         throw CLI::ValidationError("--positions",
-                                   text + ": expected up to 50 distances from the tip in mm, as 0,40");
+                                   text + ": expected up to 10 distances from the tip in mm, as 0,40");
       const double metres = metres_from_mm(*position);
       if (std::find(positions_m_.begin(), positions_m_.end(), metres) != positions_m_.end())
         throw CLI::ValidationError("--positions", text + ": expected each place once");
@@ -99,14 +92,14 @@ class RcsaCouple : public cli::Tool {
   }
 
   void take_bounds(const std::string& text) {
-    for (const std::string& part : parts_of(text)) {
+    for (const std::string_view part : split(text, ',')) {
       const auto equals = part.find('=');
       const auto name = std::find(kJointNames.begin(), kJointNames.end(), part.substr(0, equals));
       const auto band = equals == std::string::npos ? std::nullopt : parse_band(part.substr(equals + 1));
       const auto at = static_cast<std::size_t>(name - kJointNames.begin());
       if (name == kJointNames.end() || !band || band->from < 0 || (at % 2 == 0 && band->from == 0)) {
         throw CLI::ValidationError("--bounds",
-                                   part +
+                                   std::string(part) +
                                        ": expected k1=LO:HI, c1=, k2= or c2=, increasing, above 0 for "
                                        "k1 and k2, not below 0 for c1 and c2");
       }
@@ -195,8 +188,12 @@ class RcsaCouple : public cli::Tool {
     }
     if (!joint_path_.empty()) {
       const Input joint = read_input(joint_path_, true);
-      const auto joints = tool_joints_from_json(joint.document, joint.source);
-      set_joints(document.assembly, {joints[0], joints[1]});
+      const ToolJoints joints = tool_joints_from_json(joint.document, joint.source);
+      if (!joints.only.empty()) {
+        warn(joint.source.name + ": identified in " + joints.only + " only: taken for " +
+             (joints.only == "x" ? "y" : "x") + " as well");
+      }
+      set_joints(document.assembly, {joints.joint[0], joints.joint[1]});
     }
     write_responses(main_output(), document);
     write_rigid(document);
@@ -209,6 +206,10 @@ class RcsaCouple : public cli::Tool {
   }
 
   // ---- identification ----
+
+  static bool same_numbers(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+    return a.size() == b.size() && a == b;
+  }
 
   // The entry at the tip itself, or null.
   static const FrequencyResponseEntry* tip_entry(const FrequencyResponse& frf, const std::string& direction) {
@@ -241,7 +242,8 @@ class RcsaCouple : public cli::Tool {
     if (entry[0] == nullptr && entry[1] == nullptr)
       throw DataError(measured_input.source.name, "/h", "", "expected an entry xx or yy at the tip");
     const bool same = assembly.axisymmetric && entry[0] != nullptr && entry[1] != nullptr &&
-                      entry[0]->h == entry[1]->h && known_variance(*entry[0]) == known_variance(*entry[1]);
+                      entry[0]->h == entry[1]->h &&
+                      same_numbers(known_variance(*entry[0]), known_variance(*entry[1]));
 
     ToolJointDocument result;
     result.objective = objective_ == "amplitude" ? JointObjective::kAmplitude : JointObjective::kComplex;

@@ -16,6 +16,8 @@ std::optional<T> parse_whole(std::string_view text) {
   return value;
 }
 
+}  // namespace
+
 std::vector<std::string_view> split(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   for (;;) {
@@ -25,8 +27,6 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
     text.remove_prefix(end + 1);
   }
 }
-
-}  // namespace
 
 std::vector<double> Range::values() const {
   std::vector<double> result(static_cast<std::size_t>(count));

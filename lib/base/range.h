@@ -21,6 +21,9 @@ struct Range {
   bool is_point() const { return from == to; }
 };
 
+/// The parts between separators; one more than there are of these.
+std::vector<std::string_view> split(std::string_view text, char separator);
+
 /// A finite decimal number that fills the whole text, or nothing. The decimal mark is a point in every
 /// locale.
 std::optional<double> parse_number(std::string_view text);

@@ -152,11 +152,15 @@ FrequencyResponse receptances_from(const Node& node, const DocumentLoader& load)
 
 // ---- holder and joint ----
 
-std::string list_of_lines(const std::vector<double>& lines, std::size_t all) {
-  char text[96];
-  std::snprintf(text, sizeof text, "%zu of %zu lines (%g to %g Hz)", lines.size(), all, lines.front(),
-                lines.back());
+std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
   return text;
+}
+
+std::string list_of_lines(const std::vector<double>& lines, std::size_t all) {
+  return std::to_string(lines.size()) + " of " + std::to_string(all) + " lines (" +
+         short_number(lines.front()) + " to " + short_number(lines.back()) + " Hz)";
 }
 
 class AssemblyReader {
@@ -203,6 +207,10 @@ class AssemblyReader {
     HeldBy held;
     std::optional<Node> given;
     if (node.has("modal_table") || node.has("receptances")) {
+      for (const char* beams : {"segments", "end"}) {
+        if (const auto found = node.find(beams))
+          found->fail("expected segments with an end that holds modal_table or receptances, or these alone");
+      }
       given = node;
     } else {
       node.check_names({"segments", "end", "modal_table", "receptances"});
@@ -248,7 +256,7 @@ class AssemblyReader {
       assembly_.couples_directions = true;
       given = holder.receptance;
     }
-    if (!modal) say_limits(content, holder);
+    if (!modal) say_limits(content, holder, {x, y});
   }
 
   MeasuredHolder of_modes(const Node& content) {
@@ -281,15 +289,15 @@ class AssemblyReader {
   }
 
   // One line for each direction that deserves one.
-  void say_limits(const Node& content, const MeasuredHolder& holder) {
+  void say_limits(const Node& content, const MeasuredHolder& holder, const std::array<bool, 2>& used) {
     const std::size_t lines = holder.receptance.size();
     for (std::size_t d = 0; d < 2; ++d) {
       const HolderQuality& quality = holder.quality[d];
-      if (!quality.measured) continue;
+      if (!quality.measured || !(used[d] || !holder.quality[1 - d].measured)) continue;
       std::string text;
       const auto add = [&](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
       if (quality.slopes == SlopeSource::kFiniteDifference) {
-        add("slopes by a finite difference over " + std::to_string(std::lround(1e3 * quality.spacing_m)) +
+        add("slopes by a finite difference over " + short_number(mm_from_metres(quality.spacing_m)) +
             " mm, good where the part bends little over it" +
             (quality.second_difference ? "" : ", and moments to slopes as l n / h, exact for one mode only"));
       }
@@ -302,7 +310,9 @@ class AssemblyReader {
     }
     if (holder.cross_left_out) {
       document_.warnings.push_back(
-          place(content) + "xy and yx are left out: expected four pairs of places of each along an artefact");
+          place(content) +
+          "xy and yx are left out: expected both directions, and slopes or places for the entries "
+          "between them too (four pairs along an artefact)");
     }
   }
 

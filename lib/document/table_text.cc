@@ -24,7 +24,7 @@ std::string_view unquoted(std::string_view field) {
   return field;
 }
 
-std::vector<std::string> split(std::string_view line, char separator) {
+std::vector<std::string> fields_of(std::string_view line, char separator) {
   std::vector<std::string> fields;
   if (separator == ' ') {
     while (!(line = trimmed(line)).empty()) {
@@ -84,7 +84,7 @@ std::vector<TableRow> table_rows(const Source& source) {
         if (line.find(candidate) != std::string_view::npos) separator = candidate;
       }
     }
-    rows.push_back({number, split(line, separator)});
+    rows.push_back({number, fields_of(line, separator)});
     for (std::string& field : rows.back().fields) field = plain_minus(std::move(field));
     // A comma left inside a field is a decimal comma where the whole field is then a number.
     for (std::string& field : rows.back().fields) {

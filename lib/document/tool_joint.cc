@@ -6,6 +6,14 @@
 namespace stablecut {
 namespace {
 
+// In the order of JointValues.
+constexpr std::array<const char*, 4> kJointFields = {"k1_n_per_m", "c1_n_s_per_m", "k2_n_m_per_rad",
+                                                     "c2_n_m_s_per_rad"};
+
+const char* objective_name(JointObjective objective) {
+  return objective == JointObjective::kAmplitude ? "amplitude" : "complex";
+}
+
 Json estimate_to_json(const JointEstimate& estimate, JointObjective objective) {
   Json item, deviation;
   const JointValues values = values_of(estimate.joint);
@@ -30,13 +38,6 @@ ToolJoint joint_at(const Node& node) {
 
 }  // namespace
 
-const std::array<const char*, 4> kJointFields = {"k1_n_per_m", "c1_n_s_per_m", "k2_n_m_per_rad",
-                                                 "c2_n_m_s_per_rad"};
-
-const char* objective_name(JointObjective objective) {
-  return objective == JointObjective::kAmplitude ? "amplitude" : "complex";
-}
-
 Json tool_joint_to_json(const ToolJointDocument& document) {
   Json result = {{"format", "stablecut/tool-joint/1"},
                  {"lines", document.lines},
@@ -56,14 +57,15 @@ Json tool_joint_to_json(const ToolJointDocument& document) {
   return result;
 }
 
-std::array<ToolJoint, 2> tool_joints_from_json(const Json& document, const Source& source) {
+ToolJoints tool_joints_from_json(const Json& document, const Source& source) {
   const Node root = document_root(document, source, "tool-joint");
   if (!root.has("x") && !root.has("y")) {
     const ToolJoint joint = joint_at(root);
-    return {joint, joint};
+    const auto direction = root.find("direction");
+    return {{joint, joint}, direction ? direction->word({"x", "y"}) : ""};
   }
   root.check_names({"format", "lines", "band_hz", "x", "y", "provenance"});
-  return {joint_at(root.at("x")), joint_at(root.at("y"))};
+  return {{joint_at(root.at("x")), joint_at(root.at("y"))}, ""};
 }
 
 }  // namespace stablecut

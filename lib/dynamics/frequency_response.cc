@@ -73,7 +73,7 @@ FrequencyResponse on_lines(const FrequencyResponse& frf, const Eigen::VectorXd& 
     }
     const Eigen::Index above = std::min<Eigen::Index>(
         std::lower_bound(from.begin(), from.end(), hz - rounding) - from.begin(), measured - 1);
-    const bool same = std::abs(from[above] - hz) <= rounding;
+    const bool same = above == 0 || std::abs(from[above] - hz) <= rounding;
     // The nodes of the cubic, and the two neighbours.
     const Eigen::Index count = std::min<Eigen::Index>(4, measured);
     const Eigen::Index first = std::clamp<Eigen::Index>(above - 2, 0, measured - count);

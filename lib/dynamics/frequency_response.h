@@ -46,8 +46,8 @@ FrequencyResponse within_band(const FrequencyResponse& frf, double lo_hz, double
 /// for lines outside the measured band.
 FrequencyResponse on_lines(const FrequencyResponse& frf, const Eigen::VectorXd& frequency_hz);
 
-/// Variance of an entry's complex values, given or by its coherence (Bendat and Piersol); empty when neither
-/// is known.
+/// Variance of an entry's complex values [lines], in its quantity's unit squared: given, or by its coherence
+/// (Bendat and Piersol); empty when neither is known.
 Eigen::VectorXd known_variance(const FrequencyResponseEntry& entry);
 
 }  // namespace stablecut

@@ -51,3 +51,42 @@ TEST_CASE("a band keeps its ends") {
   CHECK(part.entries[0].variance == Eigen::Vector2d(4, 9));
   CHECK(within_band(sample(Quantity::kReceptance), 5, 9).frequency_hz.size() == 0);
 }
+
+TEST_CASE("on other lines: measured ones as they are, a cubic between them, nothing outside") {
+  FrequencyResponse frf;
+  frf.frequency_hz.resize(6);
+  frf.frequency_hz << 10, 12, 15, 19, 24, 30;
+  const auto cubic = [](double f) {
+    return std::complex<double>(1 + f * (2 - f * (0.1 - 0.003 * f)), -f * f * f);
+  };
+  FrequencyResponseEntry entry;
+  entry.response = entry.reference = "x";
+  entry.h = frf.frequency_hz.unaryExpr(cubic);
+  entry.variance = 3 * frf.frequency_hz;
+  frf.entries.push_back(entry);
+  Eigen::VectorXd lines(5);
+  lines << 10, 11.5, 19, 29.9, 30;
+  const FrequencyResponse other = on_lines(frf, lines);
+  for (Eigen::Index i = 0; i < lines.size(); ++i) {
+    CHECK(std::abs(other.entries[0].h[i] - cubic(lines[i])) < 1e-12 * std::abs(cubic(lines[i])));
+    CHECK(other.entries[0].variance[i] == Approx(3 * lines[i]).epsilon(1e-12));
+  }
+  CHECK(other.entries[0].h[2] == entry.h[3]);
+  lines << 9, 10, 11, 12, 13;
+  CHECK_THROWS_AS(on_lines(frf, lines), InvalidArgument);
+  lines << 10, 11, 12, 13, 30.1;
+  CHECK_THROWS_AS(on_lines(frf, lines), InvalidArgument);
+}
+
+TEST_CASE("variance: given, by coherence, or unknown") {
+  FrequencyResponseEntry entry;
+  entry.h = Eigen::VectorXcd::Constant(2, {3, 4});
+  CHECK(known_variance(entry).size() == 0);
+  entry.coherence = Eigen::Vector2d(1, 0.8);
+  entry.averages = 5;
+  // (1 - 0.8) / (2 * 5 * 0.8) |H|^2 for each of the two parts.
+  CHECK(known_variance(entry)[0] == 0);
+  CHECK(known_variance(entry)[1] == Approx(2 * 0.2 / 8 * 25));
+  entry.variance = Eigen::Vector2d(7, 8);
+  CHECK(known_variance(entry) == Eigen::Vector2d(7, 8));
+}

@@ -23,7 +23,6 @@ struct Reflection {
   double x, y, z, q, r;
 };
 
-// Elementwise, so that wide vectors give the same bits.
 STABLECUT_INLINE void reflect_rows(double* __restrict row0, double* __restrict row1, double* __restrict row2,
                                    Eigen::Index count, const Reflection& t) {
   if (row2 != nullptr) {
@@ -201,7 +200,7 @@ constexpr double kTried = 0.1, kIgnored = 0.4;
 constexpr Eigen::Index kNextStop = 2;  // columns between a stop and the next
 constexpr double kAgreement = 1e-11;   // of two stops, at which both are right
 constexpr double kUnsettled = 1e-3;    // from which on values cannot be followed
-constexpr double kRivals = 0.9;        // share of the largest modulus from which on values are followed
+constexpr double kRivals = 0.75;       // share of the largest modulus from which on values are followed
 constexpr int kNewtonSteps = 3;
 constexpr double kWorthStopping = 0.75;  // share of the rows from which on the whole costs as little
 

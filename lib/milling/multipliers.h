@@ -15,10 +15,11 @@ Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
 /// columns are in other units than the rest.
 ///
 /// Both parts are brought to one size, and the Hessenberg reduction (an orthonormal Krylov basis, from a
-/// vector without preference) stops early: when what is not reduced yet has a norm well below the largest
-/// modulus found, it can hold no larger one, and when two stops agree to 1e-11 of max(1, modulus), what
-/// couples it does not matter. A compact map of few modes needs little more than their states. Throws
-/// InvalidArgument when an entry is not finite.
+/// vector without preference) stops early: where what is not reduced yet has a norm well below the largest
+/// modulus, the eigenvalues of the reduced part from three quarters of the largest on are followed as the
+/// basis grows, until a step moves none of them by more than 1e-11 of max(1, modulus). A compact map of few
+/// modes needs little more than their states. In tests on random maps no larger one was missed; it is not a
+/// proof. Throws InvalidArgument when an entry is not finite.
 double largest_modulus(Eigen::MatrixXd matrix, Eigen::Index states);
 
 }  // namespace stablecut

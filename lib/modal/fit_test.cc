@@ -181,3 +181,22 @@ TEST_CASE("a variance that is much too small is not believed") {
   CHECK_FALSE(fit.limited_by_model);
   CHECK(fit.warnings.size() == 1);
 }
+
+TEST_CASE("equal numbers in x and y are fitted once, to the same as each alone") {
+  FrequencyResponse measured = synthesize(fixtures::close_pair(), kLines);
+  add_noise(measured, {{}, 40.0, 9});
+  std::erase_if(measured.entries, [](const auto& entry) { return entry.response + entry.reference != "xx"; });
+  const ModalFit alone = fit_modes(measured);
+  FrequencyResponseEntry other = measured.entries[0], zero = other;
+  other.response = other.reference = zero.reference = "y";
+  zero.h.setZero();
+  FrequencyResponseEntry back = zero;
+  std::swap(back.response, back.reference);
+  for (const auto& entry : {zero, back, other}) measured.entries.push_back(entry);
+  const ModalFit both = fit_modes(measured);
+  REQUIRE(both.model.modes.size() == 2 * alone.model.modes.size());
+  for (std::size_t k = 0; k < both.model.modes.size(); ++k) {
+    CHECK(both.model.modes[k].frequency_hz == alone.model.modes[k / 2].frequency_hz);
+    CHECK(both.model.modes[k].psi_r[static_cast<Eigen::Index>(k % 2)] == alone.model.modes[k / 2].psi_r[0]);
+  }
+}

@@ -333,7 +333,8 @@ RefinedModes refine_modes(const FitData& data, const std::vector<Mode>& start, i
   const Likelihood likelihood(data, parameters);
   Eigen::VectorXd x = parameters.pack(start);
 
-  FLAGS_minloglevel = google::GLOG_FATAL;  // a library that prints is a bug
+  static const auto silent = FLAGS_minloglevel = google::GLOG_FATAL;  // a library that prints is a bug
+  static_cast<void>(silent);
   ceres::Problem problem;
   problem.AddResidualBlock(new CompressedCost(likelihood, parameters.size()), nullptr, x.data());
   const double highest = data.s.cwiseAbs().maxCoeff();

@@ -38,3 +38,22 @@ TEST_CASE("inner products by partial fractions equal the sums over the lines") {
     }
   }
 }
+
+TEST_CASE("sums of a curve in one pass, for any number of lines") {
+  for (const Eigen::Index lines : {5, 8, 203}) {
+    const Eigen::VectorXd omega = Eigen::VectorXd::LinSpaced(lines, 1, 900);
+    const Eigen::VectorXcd s = std::complex<double>(0, 1) * omega.cast<std::complex<double>>();
+    Eigen::VectorXcd poles(2), h(lines);
+    poles << std::complex<double>(-3, 120), std::complex<double>(-40, 700);
+    const Eigen::VectorXd weight = omega.cwiseInverse();
+    for (Eigen::Index i = 0; i < lines; ++i)
+      h[i] = std::polar(1.0 + 0.01 * static_cast<double>(i), 0.3 * static_cast<double>(i));
+    const PoleValues values(s, poles);
+    Eigen::MatrixXcd phi(lines, 4), c(lines, 4);
+    phi << values.phi, values.phi_conj;
+    c << weight.cast<std::complex<double>>(), weight.cwiseProduct(h), weight.cwiseProduct(h.conjugate()),
+        weight.cwiseProduct(h.cwiseAbs2()).cast<std::complex<double>>();
+    const Eigen::MatrixXcd expected = phi.transpose() * c;
+    CHECK((curve_sums(s, poles, weight, h) - expected).norm() < 1e-13 * expected.norm());
+  }
+}

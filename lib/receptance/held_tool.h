@@ -12,6 +12,7 @@ using BeamChain = std::vector<BeamSegment>;
 
 /// The chain's outer end when its inner end is held by a part of receptance `inner` (zero: fixed). An empty
 /// chain gives `inner` back. Carried from the inner end outwards: exact also where the parts are short.
+/// Throws InvalidArgument for sizes or frequencies that are not above 0, as all of these do.
 template <int N>
 Receptance<N> held_chain(const BeamChain& chain, BeamTheory theory, double omega_rad_per_s,
                          const Receptance<N>& inner);
@@ -35,7 +36,7 @@ struct JointPlane {
   }
 };
 
-/// `holder`: what holds the joint from within.
+/// `holder`: what holds the joint from within. Throws InvalidArgument where there is no segment.
 template <int N>
 JointPlane<N> joint_plane(const BeamChain& tool, BeamTheory theory, double omega_rad_per_s,
                           const Receptance<N>& holder);
@@ -54,11 +55,12 @@ template <int N>
 Receptance<N> receptance_along(const BeamChain& tool, BeamTheory theory, double omega_rad_per_s,
                                const Receptance<N>& holder, double response_m, double reference_m);
 
-/// Movement at a place on a free tool per load at its end 2.
+/// Movement at a place on a free tool per load at its end 2. Throws InvalidArgument for places that are not
+/// on it.
 Receptance<2> free_response_to_end(const BeamChain& tool, BeamTheory theory, double omega_rad_per_s,
                                    double response_m);
 
-/// Receptance between two places on a free tool.
+/// Receptance between two places on a free tool. Throws InvalidArgument for places that are not on it.
 Receptance<2> free_receptance_along(const BeamChain& tool, BeamTheory theory, double omega_rad_per_s,
                                     double response_m, double reference_m);
 

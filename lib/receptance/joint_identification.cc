@@ -3,7 +3,7 @@
 #include <ceres/ceres.h>
 #include <glog/logging.h>
 
-#include <Eigen/LU>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -27,9 +27,11 @@ constexpr double kShareFloor = 0.01;    // of the weights that look at every lin
 constexpr double kDampingShare = 1e-3;  // of k / w: a damping below this is nearly none
 constexpr double kMostDeviation = 0.3;  // of a value that is identifiable
 constexpr double kNormal95 = 1.96;
-constexpr double kRounding = 1e-14;   // share of the curve's size below which nothing is noise
-constexpr double kWhite = 2;          // correlation length up to which a residual is noise
-constexpr double kBoundShare = 1e-9;  // distance in logarithms at which a value lies on its bound
+constexpr double kLeastInformation = 1e-14;  // of the values together, each in its own scale
+constexpr double kMostRelative = 1e9;        // deviation that is stated
+constexpr double kRounding = 1e-14;          // share of the curve's size below which nothing is noise
+constexpr double kWhite = 2;                 // correlation length up to which a residual is noise
+constexpr double kBoundShare = 1e-9;         // distance in logarithms at which a value lies on its bound
 // The solver's coordinates: log k, and log (c + s), which goes through c = 0, with s a small share of k / w.
 class LogJoint {
  public:
@@ -102,7 +104,8 @@ JointStart refined(const TipLines& lines, const ToolJoint& start, const JointBou
     most[i] = coordinates.to(i, bounds.most[i]);
     u[i] = std::clamp(coordinates.to(i, first[i]), least[i], most[i]);
   }
-  FLAGS_minloglevel = google::GLOG_FATAL;  // a library that prints is a bug
+  static const auto silent = FLAGS_minloglevel = google::GLOG_FATAL;  // a library that prints is a bug
+  static_cast<void>(silent);
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = steps;
@@ -205,12 +208,17 @@ void set_deviations(const TipLines& lines, const JointBounds& bounds, JointObjec
   if (known_noise) variance = std::max(variance, 1 / parts);
   const Eigen::MatrixXd reduced = information(open, open);
   const Eigen::VectorXd scale = reduced.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  // What the lines do not tell apart has next to no information, not none: its deviation is then very large.
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> directions(scale.asDiagonal() * reduced *
+                                                                  scale.asDiagonal());
   const Eigen::MatrixXd inverse =
-      (scale.asDiagonal() * reduced * scale.asDiagonal()).completeOrthogonalDecomposition().pseudoInverse();
+      directions.eigenvectors() *
+      directions.eigenvalues().cwiseMax(kLeastInformation).cwiseInverse().asDiagonal() *
+      directions.eigenvectors().transpose();
   for (std::size_t i = 0; i < open.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     const auto value = static_cast<std::size_t>(open[i]);
-    const double relative = std::sqrt(variance * inverse(at, at)) * scale[at];
+    const double relative = std::min(std::sqrt(variance * inverse(at, at)) * scale[at], kMostRelative);
     estimate.deviation[value] = relative * values[value];
     estimate.identifiable[value] = relative <= kMostDeviation * (1 - kNormal95 * relative);
   }

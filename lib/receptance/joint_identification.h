@@ -14,6 +14,7 @@ using JointValues = std::array<double, 4>;
 JointValues values_of(const ToolJoint& joint);
 ToolJoint joint_of(const JointValues& values);
 
+/// Of stiffness above 0, of damping not below; increasing.
 struct JointBounds {
   JointValues least = {1e3, 0, 1e-1, 0};
   JointValues most = {1e12, 1e7, 1e10, 1e6};

@@ -4,7 +4,9 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <set>
 #include <string>
 #include <tuple>
 
@@ -48,7 +50,10 @@ const Tap* find(const Taps& taps, int response, int reference, double response_m
 }
 
 Taps taps_of(const FrequencyResponse& measured, const Eigen::VectorXd& frequency_hz) {
-  FrequencyResponse frf = to_receptance(measured);
+  // A line at 0 Hz has no receptance when acceleration was measured, and no assembly asks for it.
+  FrequencyResponse frf = to_receptance(
+      within_band(measured, std::numeric_limits<double>::min(), std::numeric_limits<double>::infinity()));
+  if (frf.frequency_hz.size() == 0) throw InvalidArgument("no line above 0 Hz");
   for (auto& entry : frf.entries) {
     entry.variance = known_variance(entry);
     if (entry.variance.size() == 0) entry.variance = estimated_variance(entry.h, entry.h.cwiseAbs());
@@ -96,10 +101,24 @@ void remove_sensor(Taps& taps, double mass_kg, const Eigen::VectorXd& frequency_
       const double mw2 = mass_kg * std::pow(rad_per_s_from_hz(frequency_hz[i]), 2);
       const Eigen::Matrix2cd factor{{1.0 + mw2 * own[i], mw2 * away[i]},
                                     {mw2 * back[i], 1.0 + mw2 * across[i]}};
-      const Eigen::Vector2cd without = factor.inverse() * Eigen::Vector2cd(tap.h[i], other_h[i]);
-      tap.variance[i] *= std::norm(without[0] / (tap.h[i] == 0.0 ? 1.0 : tap.h[i]));
-      tap.h[i] = without[0];
+      const Eigen::Matrix2cd inverse = factor.inverse();
+      tap.variance[i] *= std::norm(inverse(0, 0));
+      tap.h[i] = inverse(0, 0) * tap.h[i] + inverse(0, 1) * other_h[i];
     }
+  }
+}
+
+// Between directions, what was measured one way only holds the other way as well.
+void complete_by_reciprocity(Taps& taps) {
+  const std::size_t measured = taps.size();
+  for (std::size_t i = 0; i < measured; ++i) {
+    Tap mirrored = taps[i];
+    std::swap(mirrored.response, mirrored.reference);
+    std::swap(mirrored.response_m, mirrored.reference_m);
+    const bool between_directions = mirrored.response / 2 != mirrored.reference / 2;
+    if (between_directions && find(taps, mirrored.response, mirrored.reference, mirrored.response_m,
+                                   mirrored.reference_m) == nullptr)
+      taps.push_back(std::move(mirrored));
   }
 }
 
@@ -271,6 +290,7 @@ class HolderBuilder {
         lines_(static_cast<std::size_t>(frequency_hz.size())),
         taps_(taps_of(measurement.frf, frequency_hz)) {
     if (measurement.sensor_mass_kg > 0) remove_sensor(taps_, measurement.sensor_mass_kg, frequency_hz);
+    complete_by_reciprocity(taps_);
     holder_.receptance.assign(lines_, Receptance<4>::Zero());
     for (int d = 0; d < 2; ++d) quality(d).measured = !taps_between(taps_, d, d).empty();
     if (!quality(0).measured && !quality(1).measured)
@@ -302,36 +322,37 @@ class HolderBuilder {
 
   bool along_artefact() const {
     for (int d = 0; d < 2; ++d) {
-      const std::size_t pairs = taps_between(taps_, d, d).size();
-      if (pairs > 0 && pairs < kDirectPairs) return false;
+      std::set<std::pair<double, double>> pairs;  // h(a, b) and h(b, a) say the same
+      for (const Tap* tap : taps_between(taps_, d, d))
+        pairs.insert(std::minmax(tap->response_m, tap->reference_m));
+      if (!pairs.empty() && pairs.size() < kDirectPairs) return false;
     }
     return std::none_of(taps_.begin(), taps_.end(), [](const Tap& tap) { return tap.slope(); });
+  }
+
+  // Whether there are entries between the two directions that can be of use; says so when not.
+  bool cross_wanted(int d, int e) {
+    if (all_zero(taps_between(taps_, d, e))) return false;
+    if (quality(0).measured && quality(1).measured) return true;
+    holder_.cross_left_out = true;
+    return false;
   }
 
   // Slopes as measured or by differences, at the face or at the artefact's tip.
   void from_tip() {
     for (int d = 0; d < 2; ++d) {
-      for (int e = 0; e < 2; ++e) {
-        const auto taps = taps_between(taps_, d, e);
-        if (taps.empty() || (d != e && all_zero(taps))) continue;
-        Block block{std::vector<Receptance<2>>(lines_), {}};
-        HolderQuality found;
-        if (!block_of_slopes(taps_, d, e, block)) {
-          if (!block_of_differences(taps_, d, e, block, found)) {
-            throw InvalidArgument(direction_name(d) + direction_name(e) +
-                                  ": no slopes and no second place: expected entries with slope_" +
-                                  direction_name(d) + ", or taps at the positions 0 and one other");
-          }
-          found.slopes = SlopeSource::kFiniteDifference;
+      if (quality(d).measured) quality(d) = take_block(d, d);
+    }
+    if (cross_wanted(0, 1) || cross_wanted(1, 0)) {
+      try {
+        take_block(0, 1);
+        take_block(1, 0);
+      } catch (const InvalidArgument&) {
+        holder_.cross_left_out = true;
+        for (Receptance<4>& h : holder_.receptance) {
+          h.topRightCorner<2, 2>().setZero();
+          h.bottomLeftCorner<2, 2>().setZero();
         }
-        for (std::size_t i = 0; i < lines_; ++i) {
-          holder_.receptance[i].block<2, 2>(2 * d, 2 * e) = block.value[i];
-          const auto at = static_cast<Eigen::Index>(i);
-          if (std::abs(block.value[i](0, 1)) < kDeviations * std::sqrt(block.l_variance[at]))
-            found.noisy_hz.push_back(frequency_hz_[at]);
-        }
-        found.measured = true;
-        if (d == e) quality(d) = std::move(found);
       }
     }
     if (measurement_.artefact.empty()) return;
@@ -348,20 +369,41 @@ class HolderBuilder {
     }
   }
 
+  HolderQuality take_block(int d, int e) {
+    Block block{std::vector<Receptance<2>>(lines_), {}};
+    HolderQuality found;
+    if (!block_of_slopes(taps_, d, e, block)) {
+      if (!block_of_differences(taps_, d, e, block, found)) {
+        throw InvalidArgument(direction_name(d) + direction_name(e) +
+                              ": no slopes and no second place: expected entries with slope_" +
+                              direction_name(d) + ", or taps at the positions 0 and one other");
+      }
+      found.slopes = SlopeSource::kFiniteDifference;
+    }
+    for (std::size_t i = 0; i < lines_; ++i) {
+      holder_.receptance[i].block<2, 2>(2 * d, 2 * e) = block.value[i];
+      const auto at = static_cast<Eigen::Index>(i);
+      if (std::abs(block.value[i](0, 1)) < kDeviations * std::sqrt(block.l_variance[at]))
+        found.noisy_hz.push_back(frequency_hz_[at]);
+    }
+    found.measured = true;
+    return found;
+  }
+
   void from_pairs_of_places() {
     std::array<std::array<std::vector<const Tap*>, 2>, 2> taps;
     for (int d = 0; d < 2; ++d) {
       quality(d).slopes = SlopeSource::kArtefact;
       for (int e = 0; e < 2; ++e) {
         auto& pairs = taps[static_cast<std::size_t>(d)][static_cast<std::size_t>(e)];
-        pairs = taps_between(taps_, d, e);
-        if (d == e || all_zero(pairs)) {
-          if (d != e) pairs.clear();
-        } else if (pairs.size() < kCrossPairs) {
-          holder_.cross_left_out = true;
-          pairs.clear();
-        }
+        if (d == e || cross_wanted(d, e)) pairs = taps_between(taps_, d, e);
       }
+    }
+    // Cross entries in both senses, or not at all.
+    if (taps[0][1].size() < kCrossPairs || taps[1][0].size() < kCrossPairs) {
+      holder_.cross_left_out = holder_.cross_left_out || !taps[0][1].empty() || !taps[1][0].empty();
+      taps[0][1].clear();
+      taps[1][0].clear();
     }
     for (std::size_t i = 0; i < lines_; ++i) {
       const auto line = static_cast<Eigen::Index>(i);
@@ -389,8 +431,8 @@ class HolderBuilder {
         // d l = -(A dY A)_12.
         const Eigen::RowVector3cd by(a(0, 0) * a(0, 1), a(0, 0) * a(1, 1) + a(0, 1) * a(0, 1),
                                      a(0, 1) * a(1, 1));
-        const double deviation = std::sqrt(
-            (by.conjugate() * direct[static_cast<std::size_t>(d)].covariance * by.transpose())(0, 0).real());
+        const double deviation =
+            std::sqrt((by * direct[static_cast<std::size_t>(d)].covariance * by.adjoint())(0, 0).real());
         if (std::abs(a(0, 1) - r22(0, 1)) < kDeviations * deviation)
           quality(d).noisy_hz.push_back(frequency_hz_[line]);
       }

@@ -43,11 +43,13 @@ struct MeasuredHolder {
 
 /// The receptance at the face on the given lines: the measured ones, or between them by cubic interpolation.
 ///
-/// Slopes are taken from entries with slopes; else by a finite difference of the places 0 and S. A sensor's
-/// mass m changes H_ab into H_ab / (1 + m w^2 H_aa) times its true value, a its place: the direct receptance
-/// there must be among the entries. An artefact is taken off by inverse coupling: taps at three or more pairs
-/// of its places say all of what holds it (G_ab = R_ab - r_a (R22 + H)^-1 r_b is linear in the inverse, least
-/// squares when there are more), fewer go by the finite difference at its tip.
+/// Slopes are taken from entries with slopes; else by a finite difference of the places 0 and S. A sensor of
+/// mass m at the response's place a made of the true H_ab what was measured: the true one is the measured one
+/// over 1 + m w^2 H_aa, so that the direct receptance there must be among the entries. An artefact is taken
+/// off by inverse coupling: taps at three or more pairs of its places say all of what holds it (G_ab = R_ab -
+/// r_a (R22 + H)^-1 r_b is linear in the inverse, least squares when there are more), fewer go by the finite
+/// difference at its tip. Entries between x and y count when both directions were measured, and hold both
+/// ways where one was.
 ///
 /// Throws InvalidArgument for lines outside the measured band and for entries that do not suffice.
 MeasuredHolder measured_holder(const HolderMeasurement& measurement, BeamTheory theory,

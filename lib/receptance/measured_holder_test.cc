@@ -1,8 +1,8 @@
 #include "receptance/measured_holder.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <random>
 
 #include "base/error.h"
 #include "dynamics/synthesis.h"
@@ -141,6 +141,10 @@ TEST_CASE("too few cross taps on an artefact are left out, too few direct ones g
   const MeasuredHolder expected = modal_holder(spindle(true), kLines);
   HolderMeasurement measurement{taps_on(expected, artefact(), 0, {{0, 0}, {0, 0.03}, {0.03, 0.03}}), 0,
                                 artefact()};
+  // Across, only the tip.
+  std::erase_if(measurement.frf.entries, [](const auto& e) {
+    return e.response != e.reference && *e.response_position_m + *e.reference_position_m > 0;
+  });
   const MeasuredHolder found = measured_holder(measurement, kTheory, kLines);
   CHECK(found.cross_left_out);
   CHECK_FALSE(found.couples_directions);
@@ -197,6 +201,56 @@ TEST_CASE("the finite difference: exact for a rigid holder, its noise and its en
   HolderMeasurement wrong = at_tip({{0, 0}, {0, 0.02}});
   for (auto& entry : wrong.frf.entries) entry.h *= -1;
   CHECK(measured_holder(wrong, kTheory, kLines).quality[0].unphysical_hz.size() > 50);  // of 60 lines
+}
+
+TEST_CASE("one direction, with or without entries across it; across one way only") {
+  const MeasuredHolder expected = modal_holder(spindle(true), kLines);
+  const auto keep = [](FrequencyResponse frf, const std::vector<std::string>& kept) {
+    std::erase_if(frf.entries, [&](const auto& e) {
+      return std::find(kept.begin(), kept.end(), e.response + e.reference) == kept.end();
+    });
+    return frf;
+  };
+  const std::vector<std::pair<double, double>> places = {{0, 0}, {0, 0.03}, {0.03, 0}, {0.03, 0.03}};
+  const FrequencyResponse taps = taps_on(expected, artefact(), 0, places);
+  for (const BeamChain& chain : {artefact(), BeamChain{}}) {
+    const MeasuredHolder alone = measured_holder({keep(taps, {"xx"}), 0, chain}, kTheory, kLines);
+    const MeasuredHolder across = measured_holder({keep(taps, {"xx", "yx"}), 0, chain}, kTheory, kLines);
+    CHECK_FALSE(alone.cross_left_out);
+    CHECK(across.cross_left_out);
+    CHECK_FALSE(across.couples_directions);
+    CHECK_FALSE(across.quality[1].measured);
+    for (std::size_t i = 0; i < alone.receptance.size(); ++i)
+      CHECK(alone.receptance[i] == across.receptance[i]);
+  }
+  // What was measured one way holds the other way.
+  const MeasuredHolder one_way =
+      measured_holder({keep(taps, {"xx", "yy", "yx"}), 0, artefact()}, kTheory, kLines);
+  CHECK(one_way.couples_directions);
+  CHECK(largest_error(one_way, expected) < 1e-6);
+  // Too little across: left out, not refused.
+  FrequencyResponse few = keep(taps, {"xx", "yy"});
+  few.entries.push_back(taps.entries[1]);
+  CHECK(measured_holder({few, 0, {}}, kTheory, kLines).cross_left_out);
+  // h(0, S) and h(S, 0) say the same: two pairs of places go by differences.
+  FrequencyResponse two = keep(taps, {"xx"});
+  two.entries.pop_back();
+  CHECK(measured_holder({two, 0, artefact()}, kTheory, kLines).quality[0].slopes ==
+        SlopeSource::kFiniteDifference);
+}
+
+TEST_CASE("a line at 0 Hz of a measured acceleration") {
+  FrequencyResponse frf = synthesize(spindle(false), kLines);
+  frf.quantity = Quantity::kAccelerance;
+  for (auto& entry : frf.entries) {
+    Eigen::VectorXcd h(kLines.size() + 1);
+    h << 0, (-(6.283185307179586 * kLines).array().square() * entry.h.array()).matrix();
+    entry.h = h;
+  }
+  frf.frequency_hz.resize(kLines.size() + 1);
+  frf.frequency_hz << 0, kLines;
+  CHECK(largest_error(measured_holder({frf, 0, {}}, kTheory, kLines), modal_holder(spindle(false), kLines)) <
+        1e-12);
 }
 
 TEST_CASE("measurements that do not suffice") {

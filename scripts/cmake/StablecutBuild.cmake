@@ -22,7 +22,7 @@ target_compile_options(stablecut_settings INTERFACE
   # No contraction into fused multiply-add: the same bytes from every compiler flag set.
   -ffp-contract=off
   # Complex products and quotients without the detour for infinities; quotients by Smith's method.
-  -fcx-fortran-rules
+  $<$<CXX_COMPILER_ID:GNU>:-fcx-fortran-rules>
   $<$<BOOL:${STABLECUT_WARNINGS_AS_ERRORS}>:-Werror>)
 target_compile_definitions(stablecut_settings INTERFACE EIGEN_DONT_PARALLELIZE EIGEN_MPL2_ONLY)
 if(STABLECUT_SANITIZE)
