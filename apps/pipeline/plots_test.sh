@@ -32,6 +32,15 @@ rcsa-couple --quiet --identify "$data/carbide-tap.json" "$data/carbide-in-collet
 check "the joint's effect" grep -q 'rigid joint' joint.svg
 check "the first curve by its name" grep -q '>measured<' joint.svg
 check "no panel for what does not move" test "$(grep -c 'H x' joint.svg)" -eq 1
+"$scripts/plot-frf" --terminal "$data/carbide-tap.json" --fitted fitted.json --rigid rigid.json >text
+check "all three in a terminal" grep -q 'rigid joint' text
+# Another quantity, a sign, a place: the same curves.
+jq '.quantity = "accelerance" | .h[0].response = "-x" | .h[0].response_position_mm = 0' "$data/carbide-tap.json" >tap.json
+"$scripts/plot-frf" tap.json --fitted fitted.json -o tap.svg 2>.err
+check "fitted in the quantity of the first" test "$(grep -c fitted tap.svg)" -ge 1 -a ! -s .err
+jq '.h |= .[3:]' fitted.json >y.json
+jq '.h |= .[:1]' "$data/carbide-tap.json" | "$scripts/plot-frf" --rigid y.json -o x.svg 2>.err
+check "nothing to draw is said" grep -q 'y.json: nothing to draw over H xx' .err
 "$scripts/plot-frf" --label 'with a "joint"' frf.json -o named.svg
 check "its name by the user, without harm" grep -q 'with a ?joint?' named.svg
 sdm-lobes "$data/thesis-table-6-2.json" --cut "$data/thesis-cut.json" --speed 9000:9000:1 --depth 0.1:0.1:1 --limit-only |

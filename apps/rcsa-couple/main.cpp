@@ -26,6 +26,7 @@ namespace {
 
 constexpr std::array<const char*, 2> kDirections = {"x", "y"};
 constexpr std::array<const char*, 4> kJointNames = {"k1", "c1", "k2", "c2"};
+constexpr Eigen::Index kLeastLines = 4;
 constexpr double kNoFit = 0.5;    // relative residual from which on no joint explains the tip
 constexpr double kPoorFit = 0.1;  // from which on a line says so
 constexpr std::size_t kMostPositions = 10;
@@ -97,11 +98,12 @@ class RcsaCouple : public cli::Tool {
       const auto name = std::find(kJointNames.begin(), kJointNames.end(), part.substr(0, equals));
       const auto band = equals == std::string::npos ? std::nullopt : parse_band(part.substr(equals + 1));
       const auto at = static_cast<std::size_t>(name - kJointNames.begin());
-      if (name == kJointNames.end() || !band || band->from < 0 || (at % 2 == 0 && band->from == 0)) {
-        throw CLI::ValidationError("--bounds",
-                                   std::string(part) +
-                                       ": expected k1=LO:HI, c1=, k2= or c2=, increasing, above 0 for "
-                                       "k1 and k2, not below 0 for c1 and c2");
+      if (name == kJointNames.end() || !band || band->from < 0 || band->to > 1e20 ||
+          (at % 2 == 0 && band->from < 1e-20)) {
+        throw CLI::ValidationError(
+            "--bounds", std::string(part) +
+                            ": expected k1=LO:HI, c1=, k2= or c2=, increasing, from 1e-20 for k1 and k2, "
+                            "from 0 for c1 and c2, to 1e20");
       }
       bounds_.least[at] = band->from;
       bounds_.most[at] = band->to;
@@ -112,6 +114,7 @@ class RcsaCouple : public cli::Tool {
   // ---- coupling ----
 
   AssemblyDocument read_assembly(const Input& input, const Eigen::VectorXd& frequency_hz) {
+    assembly_name_ = input.source.name;
     const auto folder = std::filesystem::path(main_input() == "-" ? "" : main_input()).parent_path();
     AssemblyDocument document = assembly_from_json(
         input.document, input.source, frequency_hz,
@@ -124,6 +127,12 @@ class RcsaCouple : public cli::Tool {
     for (std::size_t d = 0; d < 2; ++d) assembly.held[d].joint = joints[d];
     const auto values = [&](std::size_t d) { return joints[d] ? values_of(*joints[d]) : JointValues{}; };
     assembly.axisymmetric = assembly.axisymmetric && values(0) == values(1);
+  }
+
+  static std::string short_number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", value);
+    return text;
   }
 
   // The tip, or pairs of places on the tool.
@@ -164,8 +173,15 @@ class RcsaCouple : public cli::Tool {
             entry.reference_position_m = places[p].second;
           }
           entry.h.resize(assembly.frequency_hz.size());
-          for (std::size_t i = 0; i < lines; ++i)
-            entry.h[static_cast<Eigen::Index>(i)] = value[i * pairs + p](a, b);
+          for (std::size_t i = 0; i < lines; ++i) {
+            const auto line = static_cast<Eigen::Index>(i);
+            entry.h[line] = value[i * pairs + p](a, b);
+            if (!std::isfinite(std::abs(entry.h[line]))) {
+              throw DataError(
+                  assembly_name_, "/frequency_hz", short_number(assembly.frequency_hz[line]),
+                  "the receptance is not finite: expected sizes and materials of usual magnitude");
+            }
+          }
           frf.entries.push_back(std::move(entry));
         }
       }
@@ -227,9 +243,10 @@ class RcsaCouple : public cli::Tool {
     const Eigen::VectorXd wanted = assembly_frequencies(input.document, input.source);
     const FrequencyResponse measured = to_receptance(within_band(
         frf_from_json(measured_input.document, measured_input.source), wanted[0], wanted[wanted.size() - 1]));
-    if (measured.frequency_hz.size() == 0) {
-      throw DataError(measured_input.source.name, "/frequency_hz", "",
-                      "expected lines within the assembly's");
+    if (measured.frequency_hz.size() < kLeastLines) {
+      throw DataError(measured_input.source.name, "/frequency_hz",
+                      std::to_string(measured.frequency_hz.size()) + " lines",
+                      "expected at least " + std::to_string(kLeastLines) + " within the assembly's band");
     }
     AssemblyDocument document = read_assembly(input, measured.frequency_hz);
     Assembly& assembly = document.assembly;
@@ -291,18 +308,18 @@ class RcsaCouple : public cli::Tool {
         std::none_of(estimate.identifiable.begin(), estimate.identifiable.end(), [](bool b) { return b; });
     if (objective_ != "amplitude" && estimate.residual > kNoFit) {
       throw NoAnswer(direction + ": the best joint leaves " + percent(estimate.residual) +
-                     " of the measured tip unexplained: are tool, holder and units right?");
+                     " of the measured tip, " + identify_path_ +
+                     ", unexplained: are tool, holder and units right?");
     }
-    if (unbounded && nothing) throw NoAnswer(direction + ": the measured tip tells nothing of the joint");
+    if (unbounded && nothing)
+      throw NoAnswer(direction + ": the measured tip, " + identify_path_ + ", tells nothing of the joint");
     if (estimate.residual > kPoorFit)
       warn(direction + ": the best joint leaves " + percent(estimate.residual) +
            " of the measured tip unexplained");
     for (std::size_t i = 0; i < values.size(); ++i) {
       const std::string name = direction + ": " + kJointNames[i];
       if (estimate.at_bound[i]) {
-        char text[64];
-        std::snprintf(text, sizeof text, " lies at its bound, %g", values[i]);
-        warn(name + text);
+        warn(name + " lies at its bound, " + short_number(values[i]));
       } else if (!estimate.identifiable[i]) {
         warn(name + " is not identifiable: its standard deviation is " +
              percent(estimate.deviation[i] / values[i]) + " of it");
@@ -312,7 +329,7 @@ class RcsaCouple : public cli::Tool {
 
   bool slopes_ = false, bounds_given_ = false;
   std::vector<double> positions_m_;
-  std::string joint_path_, identify_path_, fitted_path_, rigid_path_, objective_;
+  std::string assembly_name_, joint_path_, identify_path_, fitted_path_, rigid_path_, objective_;
   JointBounds bounds_;
 };
 

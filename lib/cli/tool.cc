@@ -136,7 +136,8 @@ Input Tool::read_input(const std::string& path, bool must_be_json) {
 }
 
 void Tool::write_document(const std::string& path, Json document) {
-  const std::string whole = path == "-" ? path : std::filesystem::weakly_canonical(path).string();
+  const std::string whole =
+      path == "-" ? path : std::filesystem::weakly_canonical(std::filesystem::absolute(path)).string();
   if (std::find(output_paths_.begin(), output_paths_.end(), whole) != output_paths_.end()) {
     throw Failure(ExitStatus::kUsage, path + ": expected another output for each document");
   }

@@ -1,7 +1,9 @@
 #include "document/assembly.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <initializer_list>
 #include <map>
 
 #include "base/error.h"
@@ -145,7 +147,17 @@ FrequencyResponse receptances_from(const Node& node, const DocumentLoader& load)
     FrequencyResponse more = responses_of(items[i], load);
     if (more.quantity != all.quantity) items[i].fail("expected the quantity of the first of the list");
     if (more.frequency_hz != all.frequency_hz) items[i].fail("expected the lines of the first of the list");
-    for (auto& entry : more.entries) all.entries.push_back(std::move(entry));
+    for (auto& entry : more.entries) {
+      const bool again = std::any_of(all.entries.begin(), all.entries.end(), [&](const auto& other) {
+        return other.response == entry.response && other.reference == entry.reference &&
+               other.response_position_m.value_or(0) == entry.response_position_m.value_or(0) &&
+               other.reference_position_m.value_or(0) == entry.reference_position_m.value_or(0);
+      });
+      if (again)
+        items[i].fail("has " + entry.response + entry.reference +
+                      " at places that the list has already: expected each once");
+      all.entries.push_back(std::move(entry));
+    }
   }
   return all;
 }
@@ -203,17 +215,22 @@ class AssemblyReader {
     read(node.at("y"), false, true);
   }
 
+  static void forbid(const Node& node, std::initializer_list<const char*> names, const char* expected) {
+    for (const char* name : names) {
+      if (const auto found = node.find(name)) found->fail(expected);
+    }
+  }
+
   void read_holder(const Node& node, bool x, bool y) {
     HeldBy held;
     std::optional<Node> given;
     if (node.has("modal_table") || node.has("receptances")) {
-      for (const char* beams : {"segments", "end"}) {
-        if (const auto found = node.find(beams))
-          found->fail("expected segments with an end that holds modal_table or receptances, or these alone");
-      }
+      forbid(node, {"segments", "end"},
+             "expected segments with an end that holds modal_table or receptances, or these alone");
       given = node;
     } else {
       node.check_names({"segments", "end", "modal_table", "receptances"});
+      forbid(node, {"sensor_mass_g", "artefact"}, "expected this beside receptances");
       held.segments = segments_from(node.at("segments"), materials_);
       const Node end = node.at("end");
       if (end.json().is_object()) {
@@ -234,6 +251,7 @@ class AssemblyReader {
     const Node content = node.at(modal ? "modal_table" : "receptances");
     if (modal && node.has("receptances"))
       node.at("receptances").fail("expected modal_table or receptances, not both");
+    if (modal) forbid(node, {"sensor_mass_g", "artefact"}, "expected this beside receptances");
     const MeasuredHolder holder = modal ? of_modes(content) : of_taps(node, content);
     auto& given = assembly_.given;
     if (given.empty()) given.assign(holder.receptance.size(), Receptance<4>::Zero());

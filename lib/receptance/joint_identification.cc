@@ -28,10 +28,14 @@ constexpr double kDampingShare = 1e-3;  // of k / w: a damping below this is nea
 constexpr double kMostDeviation = 0.3;  // of a value that is identifiable
 constexpr double kNormal95 = 1.96;
 constexpr double kLeastInformation = 1e-14;  // of the values together, each in its own scale
+constexpr Eigen::Index kAround = 12;         // lines on either side that say what variance to expect
+constexpr std::size_t kEnoughAround = 4;     // of them
+constexpr double kLeastVariance = 0.3;       // of a line, over the expected one
 constexpr double kMostRelative = 1e9;        // deviation that is stated
-constexpr double kRounding = 1e-14;          // share of the curve's size below which nothing is noise
-constexpr double kWhite = 2;                 // correlation length up to which a residual is noise
-constexpr double kBoundShare = 1e-9;         // distance in logarithms at which a value lies on its bound
+constexpr double kLargestBound = 1e20;
+constexpr double kRounding = 1e-14;   // share of the curve's size below which nothing is noise
+constexpr double kWhite = 2;          // correlation length up to which a residual is noise
+constexpr double kBoundShare = 1e-9;  // distance in logarithms at which a value lies on its bound
 // The solver's coordinates: log k, and log (c + s), which goes through c = 0, with s a small share of k / w.
 class LogJoint {
  public:
@@ -186,9 +190,10 @@ void set_deviations(const TipLines& lines, const JointBounds& bounds, JointObjec
     if (!estimate.at_bound[i]) open.push_back(static_cast<Eigen::Index>(i));
   }
   if (open.empty()) return;
-  // Information about the values, each over its own size.
+  // Information about the values, each over its own size. Those at a bound count as unknown too: a bound that
+  // holds one of them tells nothing of the others.
   Eigen::Vector4d size;
-  for (Eigen::Index i = 0; i < 4; ++i) size[i] = values[static_cast<std::size_t>(i)];
+  for (std::size_t i = 0; i < 4; ++i) size[static_cast<Eigen::Index>(i)] = values[i] > 0 ? values[i] : 1;
   Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
   Eigen::VectorXcd residual(static_cast<Eigen::Index>(lines.size()));
   double floor = 0;
@@ -206,22 +211,48 @@ void set_deviations(const TipLines& lines, const JointBounds& bounds, JointObjec
   double variance =
       std::max(residual.squaredNorm(), floor) / std::max(1.0, numbers - 4.0) * correlation_length(residual);
   if (known_noise) variance = std::max(variance, 1 / parts);
-  const Eigen::MatrixXd reduced = information(open, open);
-  const Eigen::VectorXd scale = reduced.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::VectorXd scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   // What the lines do not tell apart has next to no information, not none: its deviation is then very large.
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> directions(scale.asDiagonal() * reduced *
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> directions(scale.asDiagonal() * information *
                                                                   scale.asDiagonal());
   const Eigen::MatrixXd inverse =
       directions.eigenvectors() *
       directions.eigenvalues().cwiseMax(kLeastInformation).cwiseInverse().asDiagonal() *
       directions.eigenvectors().transpose();
-  for (std::size_t i = 0; i < open.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
-    const auto value = static_cast<std::size_t>(open[i]);
+  for (const Eigen::Index at : open) {
+    const auto value = static_cast<std::size_t>(at);
     const double relative = std::min(std::sqrt(variance * inverse(at, at)) * scale[at], kMostRelative);
     estimate.deviation[value] = relative * values[value];
     estimate.identifiable[value] = relative <= kMostDeviation * (1 - kNormal95 * relative);
   }
+}
+
+double median_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// A given variance, but for lines that claim to be far surer than the lines around them, as a coherence
+// rounded to 1 does: these count as little surer. Empty where nothing is known.
+Eigen::VectorXd believed(const Eigen::VectorXd& variance) {
+  std::vector<double> all;
+  for (const double v : variance) {
+    if (v > 0) all.push_back(v);
+  }
+  if (all.empty()) return {};
+  const double usual = median_of(all);
+  Eigen::VectorXd result = variance;
+  for (Eigen::Index i = 0; i < variance.size(); ++i) {
+    std::vector<double> around;
+    const Eigen::Index last = std::min(i + kAround, variance.size() - 1);
+    for (Eigen::Index k = std::max<Eigen::Index>(0, i - kAround); k <= last; ++k) {
+      if (variance[k] > 0) around.push_back(variance[k]);
+    }
+    const double expected = around.size() > kEnoughAround ? median_of(around) : usual;
+    result[i] = std::max(variance[i], kLeastVariance * expected);
+  }
+  return result;
 }
 
 void check(const JointData& data, const JointBounds& bounds) {
@@ -232,9 +263,9 @@ void check(const JointData& data, const JointBounds& bounds) {
   }
   for (std::size_t i = 0; i < 4; ++i) {
     const bool stiffness = i % 2 == 0;
-    if (!(bounds.least[i] < bounds.most[i] && (stiffness ? bounds.least[i] > 0 : bounds.least[i] >= 0))) {
-      throw InvalidArgument(
-          "bounds: expected increasing ones, above 0 for k1 and k2, not below 0 for c1 and c2");
+    if (!(bounds.least[i] < bounds.most[i] && bounds.least[i] >= (stiffness ? 1 / kLargestBound : 0) &&
+          bounds.most[i] <= kLargestBound)) {
+      throw InvalidArgument("bounds: expected increasing ones from 1e-20 (k1, k2) or 0 (c1, c2) to 1e20");
     }
   }
 }
@@ -254,14 +285,16 @@ JointEstimate identify_joint(const JointData& data, const JointBounds& bounds, J
   const double size = data.tip.norm() / std::sqrt(static_cast<double>(data.tip.size()));
   if (!(size > 0)) throw NoAnswer("the measured tip does not move: expected a receptance other than 0");
   // The paper's objective has no weights, whatever is known of the noise.
-  const bool known = data.variance.size() > 0 && objective == JointObjective::kComplex;
+  const Eigen::VectorXd variance =
+      objective == JointObjective::kComplex ? believed(data.variance) : Eigen::VectorXd();
+  const bool known = variance.size() > 0;
   const double least_variance = std::pow(kRounding * size, 2);
   const auto weigh = [&](const auto& variance_of) {
     for (std::size_t n = 0; n < lines.size(); ++n) {
       lines[n].weight = 1 / std::sqrt(std::max(variance_of(static_cast<Eigen::Index>(n)), least_variance));
     }
   };
-  weigh([&](Eigen::Index n) { return known ? data.variance[n] : size * size; });
+  weigh([&](Eigen::Index n) { return known ? variance[n] : size * size; });
 
   JointStart best = best_joint(lines, bounds, objective);
   if (!std::isfinite(best.cost)) throw NoAnswer("no joint within the bounds gives a finite receptance");

@@ -246,7 +246,9 @@ Inverse inverse_of(const std::vector<const Tap*>& taps, Artefact& artefact, bool
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXcd> solver(scaled);
   if (solver.rank() < scaled.cols()) {
     throw InvalidArgument(
-        "the taps along the artefact are too alike to tell what holds it: expected three pairs of places");
+        "the taps along the artefact are too alike to tell what holds it: expected pairs of at least two "
+        "places, "
+        "as 0 and 0, 0 and 45, 45 and 45 mm");
   }
   const Eigen::VectorXcd y = scale.asDiagonal() * solver.solve(right);
   Inverse inverse;
@@ -291,6 +293,16 @@ class HolderBuilder {
         taps_(taps_of(measurement.frf, frequency_hz)) {
     if (measurement.sensor_mass_kg > 0) remove_sensor(taps_, measurement.sensor_mass_kg, frequency_hz);
     complete_by_reciprocity(taps_);
+    double length = 0;
+    for (const BeamSegment& segment : measurement.artefact) length += segment.length_m;
+    for (const Tap& tap : taps_) {
+      const double farthest = std::max(tap.response_m, tap.reference_m);
+      if (length > 0 && farthest > length * (1 + 1e-12)) {
+        throw InvalidArgument("position " + std::to_string(1e3 * farthest) +
+                              " mm: expected a place on the artefact, up to " + std::to_string(1e3 * length) +
+                              " mm");
+      }
+    }
     holder_.receptance.assign(lines_, Receptance<4>::Zero());
     for (int d = 0; d < 2; ++d) quality(d).measured = !taps_between(taps_, d, d).empty();
     if (!quality(0).measured && !quality(1).measured)
