@@ -15,9 +15,11 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Bounds: of -Re lambda / Im lambda, and of Im lambda in units of the highest line.
+// Bounds: of -Re lambda / Im lambda, and of Im lambda in units of the highest line. What stands for modes far
+// above the band looks nearly the same from three times the band on, and would only be dear to follow through
+// a cut.
 constexpr double kLeastRatio = 1e-6, kLargestRatio = 3;
-constexpr double kLeastRate = 1e-5, kLargestRate = 20;
+constexpr double kLeastRate = 1e-5, kLargestRate = 3;
 // What holds for a mode outside the band when the data do not say: -Re / Im, and the deviations of the
 // logarithms.
 constexpr double kResidualDamping = 0.05;
