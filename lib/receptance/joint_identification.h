@@ -30,7 +30,8 @@ struct JointData {
   Eigen::VectorXd omega_rad_per_s;   ///< [lines]
   std::vector<JointPlane<2>> plane;  ///< [lines]
   Eigen::VectorXcd tip;              ///< [lines] measured, displacement per force, m/N
-  Eigen::VectorXd variance;          ///< [lines] of the complex value, both parts together; empty: unknown
+  Eigen::VectorXd variance;  ///< [lines] of the complex value, both parts together; empty: unknown. A line
+                             ///< far surer than those around it is not believed
 };
 
 struct JointEstimate {
