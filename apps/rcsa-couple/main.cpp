@@ -27,8 +27,9 @@ namespace {
 constexpr std::array<const char*, 2> kDirections = {"x", "y"};
 constexpr std::array<const char*, 4> kJointNames = {"k1", "c1", "k2", "c2"};
 constexpr Eigen::Index kLeastLines = 4;
-constexpr double kNoFit = 0.5;    // relative residual from which on no joint explains the tip
-constexpr double kPoorFit = 0.1;  // from which on a line says so
+constexpr double kNoFit = 0.5;      // relative residual from which on no joint explains the tip
+constexpr double kPoorFit = 0.1;    // from which on a line says so
+constexpr std::size_t kBlock = 64;  // lines that a thread takes at once
 constexpr std::size_t kMostPositions = 10;
 
 class RcsaCouple : public cli::Tool {
@@ -146,15 +147,16 @@ class RcsaCouple : public cli::Tool {
     std::vector<Receptance<4>> value(lines * pairs);
     {
       cli::ProgressBar bar("rcsa-couple: lines", !quiet());
-      parallel_for(
-          lines, threads(),
-          [&](std::size_t i) {
-            const auto line = static_cast<Eigen::Index>(i);
-            if (places.empty()) value[i] = assembly.tip(line);
-            for (std::size_t p = 0; p < places.size(); ++p)
-              value[i * pairs + p] = assembly.along_tool(line, places[p].first, places[p].second);
-          },
-          [&](double share) { bar.show(share); });
+      parallel_for((lines + kBlock - 1) / kBlock, threads(),
+                   [&](std::size_t block) {
+                     for (std::size_t i = block * kBlock; i < std::min(lines, (block + 1) * kBlock); ++i) {
+                       const auto line = static_cast<Eigen::Index>(i);
+                       if (places.empty()) value[i] = assembly.tip(line);
+                       for (std::size_t p = 0; p < places.size(); ++p)
+                         value[i * pairs + p] = assembly.along_tool(line, places[p].first, places[p].second);
+                     }
+                   },
+                   [&](double share) { bar.show(share); });
     }
     FrequencyResponse frf;
     frf.frequency_hz = assembly.frequency_hz;
