@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -26,10 +25,8 @@ namespace {
 
 constexpr std::array<const char*, 2> kDirections = {"x", "y"};
 constexpr std::array<const char*, 4> kJointNames = {"k1", "c1", "k2", "c2"};
-constexpr Eigen::Index kLeastLines = 4;
-constexpr double kNoFit = 0.5;      // relative residual from which on no joint explains the tip
-constexpr double kPoorFit = 0.1;    // from which on a line says so
-constexpr std::size_t kBlock = 64;  // lines that a thread takes at once
+constexpr double kNoFit = 0.5;    // relative residual from which on no joint explains the tip
+constexpr double kPoorFit = 0.1;  // from which on a line says so
 constexpr std::size_t kMostPositions = 10;
 
 class RcsaCouple : public cli::Tool {
@@ -99,8 +96,8 @@ class RcsaCouple : public cli::Tool {
       const auto name = std::find(kJointNames.begin(), kJointNames.end(), part.substr(0, equals));
       const auto band = equals == std::string::npos ? std::nullopt : parse_band(part.substr(equals + 1));
       const auto at = static_cast<std::size_t>(name - kJointNames.begin());
-      if (name == kJointNames.end() || !band || band->from < 0 || band->to > 1e20 ||
-          (at % 2 == 0 && band->from < 1e-20)) {
+      if (name == kJointNames.end() || !band ||
+          !(band->from >= kLeastBound[at] && band->to <= kLargestBound)) {
         throw CLI::ValidationError(
             "--bounds", std::string(part) +
                             ": expected k1=LO:HI, c1=, k2= or c2=, increasing, from 1e-20 for k1 and k2, "
@@ -130,12 +127,6 @@ class RcsaCouple : public cli::Tool {
     assembly.axisymmetric = assembly.axisymmetric && values(0) == values(1);
   }
 
-  static std::string short_number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%g", value);
-    return text;
-  }
-
   // The tip, or pairs of places on the tool.
   FrequencyResponse responses(const Assembly& assembly) {
     std::vector<std::pair<double, double>> places;
@@ -147,16 +138,15 @@ class RcsaCouple : public cli::Tool {
     std::vector<Receptance<4>> value(lines * pairs);
     {
       cli::ProgressBar bar("rcsa-couple: lines", !quiet());
-      parallel_for((lines + kBlock - 1) / kBlock, threads(),
-                   [&](std::size_t block) {
-                     for (std::size_t i = block * kBlock; i < std::min(lines, (block + 1) * kBlock); ++i) {
-                       const auto line = static_cast<Eigen::Index>(i);
-                       if (places.empty()) value[i] = assembly.tip(line);
-                       for (std::size_t p = 0; p < places.size(); ++p)
-                         value[i * pairs + p] = assembly.along_tool(line, places[p].first, places[p].second);
-                     }
-                   },
-                   [&](double share) { bar.show(share); });
+      parallel_for(
+          lines, threads(),
+          [&](std::size_t i) {
+            const auto line = static_cast<Eigen::Index>(i);
+            if (places.empty()) value[i] = assembly.tip(line);
+            for (std::size_t p = 0; p < places.size(); ++p)
+              value[i * pairs + p] = assembly.along_tool(line, places[p].first, places[p].second);
+          },
+          [&](double share) { bar.show(share); });
     }
     FrequencyResponse frf;
     frf.frequency_hz = assembly.frequency_hz;
@@ -225,16 +215,12 @@ class RcsaCouple : public cli::Tool {
 
   // ---- identification ----
 
-  static bool same_numbers(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-    return a.size() == b.size() && a == b;
-  }
-
   // The entry at the tip itself, or null.
   static const FrequencyResponseEntry* tip_entry(const FrequencyResponse& frf, const std::string& direction) {
+    FrequencyResponseEntry tip;
+    tip.response = tip.reference = direction;
     for (const auto& entry : frf.entries) {
-      if (entry.response == direction && entry.reference == direction &&
-          entry.response_position_m.value_or(0) == 0 && entry.reference_position_m.value_or(0) == 0)
-        return &entry;
+      if (entry.same_places(tip)) return &entry;
     }
     return nullptr;
   }
@@ -245,10 +231,11 @@ class RcsaCouple : public cli::Tool {
     const Eigen::VectorXd wanted = assembly_frequencies(input.document, input.source);
     const FrequencyResponse measured = to_receptance(within_band(
         frf_from_json(measured_input.document, measured_input.source), wanted[0], wanted[wanted.size() - 1]));
-    if (measured.frequency_hz.size() < kLeastLines) {
-      throw DataError(measured_input.source.name, "/frequency_hz",
-                      std::to_string(measured.frequency_hz.size()) + " lines",
-                      "expected at least " + std::to_string(kLeastLines) + " within the assembly's band");
+    if (measured.frequency_hz.size() < kLeastJointLines) {
+      throw DataError(
+          measured_input.source.name, "/frequency_hz",
+          std::to_string(measured.frequency_hz.size()) + " lines",
+          "expected at least " + std::to_string(kLeastJointLines) + " within the assembly's band");
     }
     AssemblyDocument document = read_assembly(input, measured.frequency_hz);
     Assembly& assembly = document.assembly;
@@ -262,7 +249,7 @@ class RcsaCouple : public cli::Tool {
       throw DataError(measured_input.source.name, "/h", "", "expected an entry xx or yy at the tip");
     const bool same = assembly.axisymmetric && entry[0] != nullptr && entry[1] != nullptr &&
                       entry[0]->h == entry[1]->h &&
-                      same_numbers(known_variance(*entry[0]), known_variance(*entry[1]));
+                      same_values(known_variance(*entry[0]), known_variance(*entry[1]));
 
     ToolJointDocument result;
     result.objective = objective_ == "amplitude" ? JointObjective::kAmplitude : JointObjective::kComplex;
@@ -282,9 +269,11 @@ class RcsaCouple : public cli::Tool {
     write_document(main_output(), tool_joint_to_json(result));
     if (!fitted_path_.empty()) {
       AssemblyDocument fitted = document;
-      const auto& known = result.estimate[0] ? result.estimate[0] : result.estimate[1];
-      set_joints(fitted.assembly, {(result.estimate[0] ? result.estimate[0] : known)->joint,
-                                   (result.estimate[1] ? result.estimate[1] : known)->joint});
+      // A direction that was not measured is taken as the other.
+      const auto joint = [&](std::size_t d) {
+        return result.estimate[result.estimate[d] ? d : 1 - d]->joint;
+      };
+      set_joints(fitted.assembly, {joint(0), joint(1)});
       write_responses(fitted_path_, fitted);
     }
     write_rigid(document);

@@ -11,27 +11,34 @@ namespace stablecut {
 
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& work,
                   const Progress& progress) {
-  std::atomic<std::size_t> next{0};
-  std::mutex mutex;
-  std::size_t finished = 0;
+  std::atomic<std::size_t> next{0}, finished{0};
+  std::mutex failing, showing;
+  std::size_t shown = 0;
   std::size_t failed_index = count;
   std::exception_ptr failure;
 
+  const auto show = [&] {
+    if (const std::size_t done = finished; done > shown) {
+      shown = done;
+      progress(static_cast<double>(done) / static_cast<double>(count));
+    }
+  };
   const auto worker = [&] {
     for (std::size_t i = next++; i < count; i = next++) {
       try {
         work(i);
       } catch (...) {
-        const std::lock_guard lock(mutex);
+        const std::lock_guard lock(failing);
         if (i < failed_index) {
           failed_index = i;
           failure = std::current_exception();
         }
         next = count;
       }
-      const std::lock_guard lock(mutex);
       ++finished;
-      if (progress) progress(static_cast<double>(finished) / static_cast<double>(count));
+      if (!progress) continue;
+      // Whoever finds another at it goes on working.
+      if (const std::unique_lock lock(showing, std::try_to_lock); lock) show();
     }
   };
 
@@ -40,6 +47,7 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
   for (std::size_t k = 1; k < helpers; ++k) pool.emplace_back(worker);
   worker();
   pool.clear();  // joins
+  if (progress && count > 0) show();
   if (failure) std::rethrow_exception(failure);
 }
 

@@ -1,8 +1,5 @@
 #include "document/assembly.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <initializer_list>
 #include <map>
 
@@ -14,6 +11,7 @@
 #include "document/frf_csv.h"
 #include "document/modal_table.h"
 #include "document/node.h"
+#include "document/tool_joint.h"
 
 namespace stablecut {
 namespace {
@@ -146,16 +144,14 @@ FrequencyResponse receptances_from(const Node& node, const DocumentLoader& load)
   for (std::size_t i = 1; i < items.size(); ++i) {
     FrequencyResponse more = responses_of(items[i], load);
     if (more.quantity != all.quantity) items[i].fail("expected the quantity of the first of the list");
-    if (more.frequency_hz != all.frequency_hz) items[i].fail("expected the lines of the first of the list");
+    if (!same_values(more.frequency_hz, all.frequency_hz))
+      items[i].fail("expected the lines of the first of the list");
     for (auto& entry : more.entries) {
-      const bool again = std::any_of(all.entries.begin(), all.entries.end(), [&](const auto& other) {
-        return other.response == entry.response && other.reference == entry.reference &&
-               other.response_position_m.value_or(0) == entry.response_position_m.value_or(0) &&
-               other.reference_position_m.value_or(0) == entry.reference_position_m.value_or(0);
-      });
-      if (again)
+      for (const auto& other : all.entries) {
+        if (!other.same_places(entry)) continue;
         items[i].fail("has " + entry.response + entry.reference +
                       " at places that the list has already: expected each once");
+      }
       all.entries.push_back(std::move(entry));
     }
   }
@@ -163,12 +159,6 @@ FrequencyResponse receptances_from(const Node& node, const DocumentLoader& load)
 }
 
 // ---- holder and joint ----
-
-std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
 
 std::string list_of_lines(const std::vector<double>& lines, std::size_t all) {
   return std::to_string(lines.size()) + " of " + std::to_string(all) + " lines (" +
@@ -196,6 +186,7 @@ class AssemblyReader {
       if (node.json().is_string()) {
         node.word({"rigid"});
       } else {
+        node.check_names({"k1_n_per_m", "c1_n_s_per_m", "k2_n_m_per_rad", "c2_n_m_s_per_rad"});
         joint = tool_joint_from(node);
       }
       if (x) assembly_.held[0].joint = joint;
@@ -355,12 +346,6 @@ Json band_of(const std::vector<double>& lines) {
 }
 
 }  // namespace
-
-ToolJoint tool_joint_from(const Node& node) {
-  node.check_names({"k1_n_per_m", "c1_n_s_per_m", "k2_n_m_per_rad", "c2_n_m_s_per_rad"});
-  return {node.at("k1_n_per_m").number(kPositive), node.at("c1_n_s_per_m").number(kNotNegative),
-          node.at("k2_n_m_per_rad").number(kPositive), node.at("c2_n_m_s_per_rad").number(kNotNegative)};
-}
 
 Eigen::VectorXd assembly_frequencies(const Json& document, const Source& source) {
   return frequencies_from(checked_root(document, source).at("frequency_hz"));

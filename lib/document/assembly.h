@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "document/node.h"
+#include "document/json_text.h"
 #include "receptance/assembly.h"
 #include "receptance/measured_holder.h"
 
@@ -29,9 +29,6 @@ Eigen::VectorXd assembly_frequencies(const Json& document, const Source& source)
 /// The assembly on the given lines (Hz, above 0, increasing). Throws DataError.
 AssemblyDocument assembly_from_json(const Json& document, const Source& source,
                                     const Eigen::VectorXd& frequency_hz, const DocumentLoader& load);
-
-/// {"k1_n_per_m", ...}. Throws DataError.
-ToolJoint tool_joint_from(const Node& node);
 
 /// What is known of measured holders, for the member `holder` of a tip's document; null when there is none.
 Json holder_quality_to_json(const AssemblyDocument& document);

@@ -1,5 +1,6 @@
 #include "document/error.h"
 
+#include <cstdio>
 #include <utility>
 
 namespace stablecut {
@@ -36,6 +37,12 @@ std::string pointer_step(const std::string& pointer, const std::string& step) {
 }
 
 std::string line_place(long line) { return "line " + std::to_string(line); }
+
+std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
 
 std::string shown(std::string value) {
   constexpr std::size_t kLongest = 60;

@@ -19,6 +19,9 @@ std::string pointer_step(const std::string& pointer, const std::string& step);
 /// `line 12`.
 std::string line_place(long line);
 
+/// A number for a message: six digits.
+std::string short_number(double value);
+
 /// A value for a message: on one line, control characters replaced, shortened when long.
 std::string shown(std::string value);
 

@@ -98,9 +98,7 @@ FrequencyResponse frf_from_json(const Json& document, const Source& source, cons
     FrequencyResponseEntry entry = entry_from(item, frf.frequency_hz.size());
     // The same directions may be measured at several positions.
     for (const auto& other : frf.entries) {
-      if (other.response == entry.response && other.reference == entry.reference &&
-          other.response_position_m == entry.response_position_m &&
-          other.reference_position_m == entry.reference_position_m) {
+      if (other.same_places(entry)) {
         throw DataError(source.name, item.pointer(), entry.response + entry.reference,
                         "expected each pair of directions once");
       }

@@ -1,8 +1,5 @@
 #include "document/tool_joint.h"
 
-#include "document/assembly.h"
-#include "document/node.h"
-
 namespace stablecut {
 namespace {
 
@@ -37,6 +34,11 @@ ToolJoint joint_at(const Node& node) {
 }
 
 }  // namespace
+
+ToolJoint tool_joint_from(const Node& node) {
+  return {node.at("k1_n_per_m").number(kPositive), node.at("c1_n_s_per_m").number(kNotNegative),
+          node.at("k2_n_m_per_rad").number(kPositive), node.at("c2_n_m_s_per_rad").number(kNotNegative)};
+}
 
 Json tool_joint_to_json(const ToolJointDocument& document) {
   Json result = {{"format", "stablecut/tool-joint/1"},

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "document/json_text.h"
+#include "document/node.h"
 #include "receptance/joint_identification.h"
 
 namespace stablecut {
@@ -20,6 +20,9 @@ struct ToolJointDocument {
 /// The document without provenance: {"x": ..., "y": ...} when both were measured, else the one direction's
 /// values, and its name.
 Json tool_joint_to_json(const ToolJointDocument& document);
+
+/// The four values of {"k1_n_per_m", ...}. Throws DataError.
+ToolJoint tool_joint_from(const Node& node);
 
 struct ToolJoints {
   std::array<ToolJoint, 2> joint;  ///< in x and in y

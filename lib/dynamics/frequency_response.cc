@@ -10,6 +10,16 @@
 
 namespace stablecut {
 
+bool FrequencyResponseEntry::same_places(const FrequencyResponseEntry& other) const {
+  return response == other.response && reference == other.reference &&
+         response_position_m.value_or(0) == other.response_position_m.value_or(0) &&
+         reference_position_m.value_or(0) == other.reference_position_m.value_or(0);
+}
+
+bool same_values(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  return a.size() == b.size() && a == b;
+}
+
 const FrequencyResponseEntry* FrequencyResponse::find(std::string_view response,
                                                       std::string_view reference) const {
   for (const auto& entry : entries) {

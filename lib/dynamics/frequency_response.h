@@ -22,6 +22,9 @@ struct FrequencyResponseEntry {
   std::optional<double> averages;  ///< number of averages behind the coherence
   std::optional<double> response_position_m;   ///< distance from the tip
   std::optional<double> reference_position_m;  ///< distance from the tip
+
+  /// The same directions at the same places; without a position it is the tip.
+  bool same_places(const FrequencyResponseEntry& other) const;
 };
 
 /// Entries may be missing (unknown); an entry of exact zeros means uncoupled.
@@ -45,6 +48,9 @@ FrequencyResponse within_band(const FrequencyResponse& frf, double lo_hz, double
 /// through the four nearest. Variances likewise but linear; coherences are left out. Throws InvalidArgument
 /// for lines outside the measured band.
 FrequencyResponse on_lines(const FrequencyResponse& frf, const Eigen::VectorXd& frequency_hz);
+
+/// Equal in number and value.
+bool same_values(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
 /// Variance of an entry's complex values [lines], in its quantity's unit squared: given, or by its coherence
 /// (Bendat and Piersol); empty when neither is known.

@@ -307,7 +307,9 @@ std::complex<double> followed(const Eigen::Ref<const Eigen::MatrixXd>& h, std::c
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) {
   check_finite(matrix);
   if (matrix.rows() == 1) return matrix.cast<std::complex<double>>();
-  return hessenberg_eigenvalues(Eigen::HessenbergDecomposition<Eigen::MatrixXd>(matrix).matrixH());
+  Reduction reduction(matrix);
+  for (Eigen::Index k = 0; k + 2 < matrix.rows(); ++k) reduction.reduce_column(k);
+  return hessenberg_eigenvalues(reduction.reduced(matrix.rows()));
 }
 
 double largest_modulus(Eigen::MatrixXd a, Eigen::Index states) {
@@ -322,7 +324,6 @@ double largest_modulus(Eigen::MatrixXd a, Eigen::Index states) {
   }
   Reduction reduction(a);
   std::vector<std::complex<double>> found;  // the largest and its rivals, of the stop before
-  double largest = 0;
   Eigen::Index stopped = 0;
   for (Eigen::Index size = 1; size + 1 < n; ++size) {
     reduction.reduce_column(size - 1);
@@ -332,7 +333,7 @@ double largest_modulus(Eigen::MatrixXd a, Eigen::Index states) {
       continue;
     // Follow the largest and its rivals; where they still move much, or there are none, look at all again.
     double change = found.empty() ? kUnsettled : 0;
-    largest = 0;
+    double largest = 0;
     for (auto& value : found) {
       const auto now = followed(reduction.reduced(size), value);
       const double moved = std::abs(now - value) / std::max(1.0, std::abs(now));

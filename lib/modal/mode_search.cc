@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "dynamics/noise.h"
-#include "modal/pole_sums.h"
 #include "modal/vector_fitting.h"
 
 namespace stablecut {

@@ -45,8 +45,7 @@ Receptance<2> Assembly::holder(int direction, Eigen::Index line) const {
 
 JointPlane<2> Assembly::plane(int direction, Eigen::Index line) const {
   const double omega = rad_per_s_from_hz(frequency_hz[line]);
-  const JointPlane<2> bare = joint_plane<2>(tool, theory, omega, holder(direction, line));
-  return tip_mass_kg > 0 ? with_tip_mass<2>(bare, tip_mass_kg, omega) : bare;
+  return with_tip_mass<2>(joint_plane<2>(tool, theory, omega, holder(direction, line)), tip_mass_kg, omega);
 }
 
 Receptance<4> Assembly::tip(Eigen::Index line) const {

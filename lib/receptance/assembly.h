@@ -26,13 +26,12 @@ struct HeldBy {
 struct Assembly {
   Eigen::VectorXd frequency_hz;  ///< [lines], above 0, increasing
   BeamTheory theory = BeamTheory::kTimoshenko;
-  BeamChain tool;              ///< from the tip to the joint; the same in both directions
-  std::array<HeldBy, 2> held;  ///< in x and in y
-  std::vector<Receptance<4>>
-      given;                        ///< [lines] where an end is kGiven; a direction that is not, is zero here
-  bool couples_directions = false;  ///< given's cross blocks are not zero; then both ends are kGiven
-  double tip_mass_kg = 0;           ///< a sensor at the tip
-  bool axisymmetric = true;         ///< x and y are the same
+  BeamChain tool;                    ///< from the tip to the joint; the same in both directions
+  std::array<HeldBy, 2> held;        ///< in x and in y
+  std::vector<Receptance<4>> given;  ///< [lines] of ends that are kGiven; zero for the others
+  bool couples_directions = false;   ///< given's cross blocks are not zero; then both ends are kGiven
+  double tip_mass_kg = 0;            ///< a sensor at the tip
+  bool axisymmetric = true;          ///< x and y are the same
 
   /// What holds the tool at the joint, from within. Throws InvalidArgument for a free end without a segment.
   Receptance<2> holder(int direction, Eigen::Index line) const;

@@ -115,6 +115,7 @@ JointPlane<N> joint_plane(const BeamChain& tool, BeamTheory theory, double omega
 
 template <int N>
 JointPlane<N> with_tip_mass(const JointPlane<N>& plane, double mass_kg, double omega) {
+  if (mass_kg == 0) return plane;
   // The tip's load is F + M w^2 tip.
   const Receptance<N> mass = mass_matrix<N>(mass_kg, omega);
   const Receptance<N> moves = (Receptance<N>::Identity() - plane.rigid_tip * mass).inverse();
@@ -128,6 +129,7 @@ JointPlane<N> with_tip_mass(const JointPlane<N>& plane, double mass_kg, double o
 
 template <int N>
 Receptance<N> with_mass(const Receptance<N>& at, double mass_kg, double omega) {
+  if (mass_kg == 0) return at;
   return (Receptance<N>::Identity() - at * mass_matrix<N>(mass_kg, omega)).inverse() * at;
 }
 

@@ -17,7 +17,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr Eigen::Index kLeastLines = 4;
 // On how many lines and in how many steps starts are tried, and how many are carried to the end.
 constexpr Eigen::Index kTrialLines = 800;
 constexpr std::size_t kFinalists = 3;
@@ -32,10 +31,10 @@ constexpr Eigen::Index kAround = 12;         // lines on either side that say wh
 constexpr std::size_t kEnoughAround = 4;     // of them
 constexpr double kLeastVariance = 0.3;       // of a line, over the expected one
 constexpr double kMostRelative = 1e9;        // deviation that is stated
-constexpr double kLargestBound = 1e20;
-constexpr double kRounding = 1e-14;   // share of the curve's size below which nothing is noise
-constexpr double kWhite = 2;          // correlation length up to which a residual is noise
-constexpr double kBoundShare = 1e-9;  // distance in logarithms at which a value lies on its bound
+constexpr double kRounding = 1e-14;          // share of the curve's size below which nothing is noise
+constexpr double kWhite = 2;                 // correlation length up to which a residual is noise
+constexpr double kBoundShare = 1e-9;         // distance in logarithms at which a value lies on its bound
+
 // The solver's coordinates: log k, and log (c + s), which goes through c = 0, with s a small share of k / w.
 class LogJoint {
  public:
@@ -184,12 +183,8 @@ double surprise(const Eigen::VectorXcd& residual, const Eigen::VectorXd& size) {
 void set_deviations(const TipLines& lines, const JointBounds& bounds, JointObjective objective,
                     bool known_noise, JointEstimate& estimate) {
   const JointValues values = values_of(estimate.joint);
-  std::vector<Eigen::Index> open;
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < 4; ++i)
     estimate.at_bound[i] = values[i] <= bounds.least[i] || values[i] >= bounds.most[i];
-    if (!estimate.at_bound[i]) open.push_back(static_cast<Eigen::Index>(i));
-  }
-  if (open.empty()) return;
   // Information about the values, each over its own size. Those at a bound count as unknown too: a bound that
   // holds one of them tells nothing of the others.
   Eigen::Vector4d size;
@@ -219,11 +214,12 @@ void set_deviations(const TipLines& lines, const JointBounds& bounds, JointObjec
       directions.eigenvectors() *
       directions.eigenvalues().cwiseMax(kLeastInformation).cwiseInverse().asDiagonal() *
       directions.eigenvectors().transpose();
-  for (const Eigen::Index at : open) {
-    const auto value = static_cast<std::size_t>(at);
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (estimate.at_bound[i]) continue;
+    const auto at = static_cast<Eigen::Index>(i);
     const double relative = std::min(std::sqrt(variance * inverse(at, at)) * scale[at], kMostRelative);
-    estimate.deviation[value] = relative * values[value];
-    estimate.identifiable[value] = relative <= kMostDeviation * (1 - kNormal95 * relative);
+    estimate.deviation[i] = relative * values[i];
+    estimate.identifiable[i] = relative <= kMostDeviation * (1 - kNormal95 * relative);
   }
 }
 
@@ -256,17 +252,15 @@ Eigen::VectorXd believed(const Eigen::VectorXd& variance) {
 }
 
 void check(const JointData& data, const JointBounds& bounds) {
-  if (data.tip.size() < kLeastLines) {
+  if (data.tip.size() < kLeastJointLines) {
     throw InvalidArgument(std::to_string(data.tip.size()) +
                           " lines in common with the assembly: expected at least " +
-                          std::to_string(kLeastLines));
+                          std::to_string(kLeastJointLines));
   }
   for (std::size_t i = 0; i < 4; ++i) {
-    const bool stiffness = i % 2 == 0;
-    if (!(bounds.least[i] < bounds.most[i] && bounds.least[i] >= (stiffness ? 1 / kLargestBound : 0) &&
-          bounds.most[i] <= kLargestBound)) {
+    if (!(bounds.least[i] < bounds.most[i] && bounds.least[i] >= kLeastBound[i] &&
+          bounds.most[i] <= kLargestBound))
       throw InvalidArgument("bounds: expected increasing ones from 1e-20 (k1, k2) or 0 (c1, c2) to 1e20");
-    }
   }
 }
 

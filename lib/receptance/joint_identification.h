@@ -14,11 +14,18 @@ using JointValues = std::array<double, 4>;
 JointValues values_of(const ToolJoint& joint);
 ToolJoint joint_of(const JointValues& values);
 
-/// Of stiffness above 0, of damping not below; increasing.
+/// What bounds may be, in the order of JointValues.
+inline constexpr JointValues kLeastBound = {1e-20, 0, 1e-20, 0};
+inline constexpr double kLargestBound = 1e20;
+
+/// Increasing.
 struct JointBounds {
   JointValues least = {1e3, 0, 1e-1, 0};
   JointValues most = {1e12, 1e7, 1e10, 1e6};
 };
+
+/// Lines without which nothing is identified.
+inline constexpr Eigen::Index kLeastJointLines = 4;
 
 enum class JointObjective {
   kComplex,    ///< sum of |H - H_measured|^2, weighted by the noise: maximum likelihood
@@ -50,8 +57,8 @@ struct JointEstimate {
 ///
 /// An unknown noise is taken as the same on all lines, or as a share of the value where the residual says so.
 /// Residuals that hang together over lines (a model that does not fit) widen the deviations. Throws
-/// InvalidArgument for bounds that are not increasing or below 0 (stiffness: not above 0) and for fewer than
-/// 4 lines, NoAnswer where no joint can be found.
+/// InvalidArgument for bounds that are not increasing or beyond kLeastBound and kLargestBound, and for fewer than
+/// kLeastJointLines lines, NoAnswer where no joint can be found.
 JointEstimate identify_joint(const JointData& data, const JointBounds& bounds, JointObjective objective);
 
 }  // namespace stablecut

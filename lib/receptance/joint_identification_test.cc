@@ -129,7 +129,7 @@ TEST_CASE("noise 40 dB below the curve's size: at the Cramer-Rao bound, and what
       CHECK((bound[i] < 0.3) == c.identifiable[static_cast<std::size_t>(i)]);
       if (bound[i] < 0.3) CHECK(std::sqrt(square[i] / kSeeds) < 1.3 * bound[i]);
     }
-    CHECK(inside > 0.9 * counted);
+    CHECK(inside > 0.9 * counted);  // 95 % of 100 to 200: four of their deviations lower
   }
 }
 
@@ -182,7 +182,7 @@ TEST_CASE("noise as a share of the value, known or not") {
         stated[i] += std::pow(estimate.deviation[at] / truth[at], 2) / kSeeds;
       }
     }
-    // The deviations that are stated are those that are seen.
+    // The deviations that are stated are those that are seen, to the 13 % that 30 seeds allow.
     INFO("noise known: " << known);
     for (Eigen::Index i = 0; i < 4; ++i) CHECK(std::sqrt(square[i] / stated[i]) == Approx(1).margin(0.35));
   }

@@ -18,6 +18,7 @@ constexpr std::size_t kInTurns = 40;
 constexpr int kTurns = 6;
 constexpr std::size_t kStarts = 10;
 constexpr double kSameStart = 0.2;  // distance in log stiffness
+
 // With y = H - rigid and K2 known, eq. 6 is linear in K1 = k1 + i w c1:
 //   K1 (y S2 - l2 r2) = S2 l1 r1 - l1 z12 r2 - l2 z21 r1 + z11 l2 r2 - y (z11 S2 - z12 z21),   S2 = K2 + z22.
 // Its error over the determinant is the error of the tip: the determinant of the joint before (at first the

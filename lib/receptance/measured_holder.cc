@@ -1,126 +1,26 @@
 #include "receptance/measured_holder.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
 #include <set>
 #include <string>
-#include <tuple>
+#include <utility>
 
 #include "base/error.h"
 #include "base/units.h"
-#include "dynamics/noise.h"
 #include "dynamics/synthesis.h"
+#include "receptance/artefact.h"
+#include "receptance/taps.h"
 
 namespace stablecut {
 namespace {
 
 using Complex = std::complex<double>;
 
-constexpr std::array<const char*, 4> kCoordinates = {"x", "slope_x", "y", "slope_y"};
-constexpr double kSamePlace = 1e-9;     // m
 constexpr double kDeviations = 3;       // of the noise, below which a value is noise
 constexpr double kPassiveShare = 0.05;  // of the receptance, which may be given away before it is said
 constexpr std::size_t kDirectPairs = 3, kCrossPairs = 4;  // unknowns of a symmetric and of any 2x2 matrix
-
-// One measured curve between two places.
-struct Tap {
-  int response = 0, reference = 0;  // of kCoordinates
-  double response_m = 0, reference_m = 0;
-  Eigen::VectorXcd h;
-  Eigen::VectorXd variance;  // of the complex value
-
-  bool slope() const { return response % 2 == 1 || reference % 2 == 1; }
-  bool between(int a, int b) const { return response == a && reference == b; }
-  bool at(double a, double b) const {
-    return std::abs(response_m - a) < kSamePlace && std::abs(reference_m - b) < kSamePlace;
-  }
-};
-
-using Taps = std::vector<Tap>;
-
-const Tap* find(const Taps& taps, int response, int reference, double response_m, double reference_m) {
-  const auto found = std::find_if(taps.begin(), taps.end(), [&](const Tap& tap) {
-    return tap.between(response, reference) && tap.at(response_m, reference_m);
-  });
-  return found == taps.end() ? nullptr : &*found;
-}
-
-Taps taps_of(const FrequencyResponse& measured, const Eigen::VectorXd& frequency_hz) {
-  // A line at 0 Hz has no receptance when acceleration was measured, and no assembly asks for it.
-  FrequencyResponse frf = to_receptance(
-      within_band(measured, std::numeric_limits<double>::min(), std::numeric_limits<double>::infinity()));
-  if (frf.frequency_hz.size() == 0) throw InvalidArgument("no line above 0 Hz");
-  for (auto& entry : frf.entries) {
-    entry.variance = known_variance(entry);
-    if (entry.variance.size() == 0) entry.variance = estimated_variance(entry.h, entry.h.cwiseAbs());
-  }
-  frf = on_lines(frf, frequency_hz);
-  Taps taps;
-  for (const auto& entry : frf.entries) {
-    const auto coordinate = [](const std::string& name) {
-      return static_cast<int>(std::find(kCoordinates.begin(), kCoordinates.end(), name) -
-                              kCoordinates.begin());
-    };
-    Tap tap{coordinate(entry.response),
-            coordinate(entry.reference),
-            entry.response_position_m.value_or(0),
-            entry.reference_position_m.value_or(0),
-            entry.h,
-            entry.variance};
-    if (tap.response < 4 && tap.reference < 4) taps.push_back(std::move(tap));
-  }
-  return taps;
-}
-
-// H = (1 + m w^2 D)^-1 H_measured, D the measured direct receptances (x and y) at the sensor's place.
-void remove_sensor(Taps& taps, double mass_kg, const Eigen::VectorXd& frequency_hz) {
-  const Taps measured = taps;
-  for (Tap& tap : taps) {
-    if (tap.slope())
-      throw InvalidArgument("a sensor's mass can be taken off deflections only, not off slopes");
-    const double a = tap.response_m;
-    const int other = 2 - tap.response;
-    const auto curve = [&](int response, int reference, double reference_m) {
-      const Tap* found = find(measured, response, reference, a, reference_m);
-      return found == nullptr ? Eigen::VectorXcd::Zero(tap.h.size()).eval() : found->h;
-    };
-    if (find(measured, tap.response, tap.response, a, a) == nullptr) {
-      throw InvalidArgument(std::string("the direct receptance ") +
-                            kCoordinates[static_cast<std::size_t>(tap.response)] +
-                            " at the sensor's place, " + std::to_string(1e3 * a) +
-                            " mm: missing, and needed to take its mass away");
-    }
-    const Eigen::VectorXcd own = curve(tap.response, tap.response, a), away = curve(tap.response, other, a);
-    const Eigen::VectorXcd back = curve(other, tap.response, a), across = curve(other, other, a);
-    const Eigen::VectorXcd other_h = curve(other, tap.reference, tap.reference_m);
-    for (Eigen::Index i = 0; i < tap.h.size(); ++i) {
-      const double mw2 = mass_kg * std::pow(rad_per_s_from_hz(frequency_hz[i]), 2);
-      const Eigen::Matrix2cd factor{{1.0 + mw2 * own[i], mw2 * away[i]},
-                                    {mw2 * back[i], 1.0 + mw2 * across[i]}};
-      const Eigen::Matrix2cd inverse = factor.inverse();
-      tap.variance[i] *= std::norm(inverse(0, 0));
-      tap.h[i] = inverse(0, 0) * tap.h[i] + inverse(0, 1) * other_h[i];
-    }
-  }
-}
-
-// Between directions, what was measured one way only holds the other way as well.
-void complete_by_reciprocity(Taps& taps) {
-  const std::size_t measured = taps.size();
-  for (std::size_t i = 0; i < measured; ++i) {
-    Tap mirrored = taps[i];
-    std::swap(mirrored.response, mirrored.reference);
-    std::swap(mirrored.response_m, mirrored.reference_m);
-    const bool between_directions = mirrored.response / 2 != mirrored.reference / 2;
-    if (between_directions && find(taps, mirrored.response, mirrored.reference, mirrored.response_m,
-                                   mirrored.reference_m) == nullptr)
-      taps.push_back(std::move(mirrored));
-  }
-}
 
 std::string direction_name(int direction) { return kCoordinates[static_cast<std::size_t>(2 * direction)]; }
 
@@ -192,83 +92,6 @@ bool block_of_differences(const Taps& taps, int d, int e, Block& block, HolderQu
   return true;
 }
 
-// The free artefact at one line: between the pairs of places, and from each place to the joint.
-class Artefact {
- public:
-  Artefact(const BeamChain& chain, BeamTheory theory, double omega)
-      : chain_(chain), theory_(theory), omega_(omega) {}
-
-  BeamReceptances ends() const { return free_chain(chain_, theory_, omega_); }
-  Complex between(double a, double b) const {
-    return free_receptance_along(chain_, theory_, omega_, a, b)(0, 0);
-  }
-  Eigen::RowVector2cd to_joint(double a) {
-    const auto found = to_joint_.find(a);
-    if (found != to_joint_.end()) return found->second;
-    return to_joint_[a] = free_response_to_end(chain_, theory_, omega_, a).row(0);
-  }
-
- private:
-  const BeamChain& chain_;
-  BeamTheory theory_;
-  double omega_;
-  std::map<double, Eigen::RowVector2cd> to_joint_;
-};
-
-// (R22 + H)^-1 of one pair of directions from taps along the artefact, and the covariance of its parameters
-// (symmetric: Y11, Y12, Y22) on the diagonal of directions.
-struct Inverse {
-  Receptance<2> value = Receptance<2>::Zero();
-  Eigen::MatrixXcd covariance;
-};
-
-Inverse inverse_of(const std::vector<const Tap*>& taps, Artefact& artefact, bool symmetric,
-                   Eigen::Index line) {
-  const auto rows = static_cast<Eigen::Index>(taps.size());
-  Eigen::MatrixXcd system(rows, symmetric ? 3 : 4);
-  Eigen::VectorXcd right(rows);
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    const Tap& tap = *taps[static_cast<std::size_t>(i)];
-    const Eigen::RowVector2cd a = artefact.to_joint(tap.response_m), b = artefact.to_joint(tap.reference_m);
-    const double least = 1e-12 * std::abs(tap.h[line]);
-    const double weight = 1 / std::max({std::sqrt(tap.variance[line]), least, 1e-300});
-    right[i] =
-        weight * ((symmetric ? artefact.between(tap.response_m, tap.reference_m) : Complex(0)) - tap.h[line]);
-    if (symmetric) {
-      system.row(i) << a[0] * b[0], a[0] * b[1] + a[1] * b[0], a[1] * b[1];
-    } else {
-      system.row(i) << a[0] * b[0], a[0] * b[1], a[1] * b[0], a[1] * b[1];
-    }
-    system.row(i) *= weight;
-  }
-  const Eigen::VectorXd scale = system.colwise().norm().cwiseMax(1e-300).cwiseInverse();
-  const Eigen::MatrixXcd scaled = system * scale.asDiagonal();
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXcd> solver(scaled);
-  if (solver.rank() < scaled.cols()) {
-    throw InvalidArgument(
-        "the taps along the artefact are too alike to tell what holds it: expected pairs of at least two "
-        "places, "
-        "as 0 and 0, 0 and 45, 45 and 45 mm");
-  }
-  const Eigen::VectorXcd y = scale.asDiagonal() * solver.solve(right);
-  Inverse inverse;
-  if (symmetric) {
-    inverse.value << y[0], y[1], y[1], y[2];
-    inverse.covariance = scale.asDiagonal() * (scaled.adjoint() * scaled).inverse() * scale.asDiagonal();
-  } else {
-    inverse.value << y[0], y[1], y[2], y[3];
-  }
-  return inverse;
-}
-
-std::vector<const Tap*> taps_between(const Taps& taps, int d, int e) {
-  std::vector<const Tap*> result;
-  for (const Tap& tap : taps) {
-    if (tap.between(2 * d, 2 * e)) result.push_back(&tap);
-  }
-  return result;
-}
-
 bool all_zero(const std::vector<const Tap*>& taps) {
   return std::all_of(taps.begin(), taps.end(), [](const Tap* tap) { return tap->h.isZero(0); });
 }
@@ -281,6 +104,13 @@ bool is_passive(const Receptance<2>& h) {
   const Eigen::Matrix2cd scaled = unit.asDiagonal() * dissipation * unit.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2cd> solver(scaled, Eigen::EigenvaluesOnly);
   return solver.eigenvalues().maxCoeff() <= kPassiveShare;
+}
+
+// Whether a load in one direction moves the other.
+bool couple(const std::vector<Receptance<4>>& lines) {
+  return std::any_of(lines.begin(), lines.end(), [](const Receptance<4>& h) {
+    return !h.topRightCorner<2, 2>().isZero(0) || !h.bottomLeftCorner<2, 2>().isZero(0);
+  });
 }
 
 class HolderBuilder {
@@ -304,7 +134,7 @@ class HolderBuilder {
       }
     }
     holder_.receptance.assign(lines_, Receptance<4>::Zero());
-    for (int d = 0; d < 2; ++d) quality(d).measured = !taps_between(taps_, d, d).empty();
+    for (int d = 0; d < 2; ++d) quality(d).measured = !taps_between(taps_, 2 * d, 2 * d).empty();
     if (!quality(0).measured && !quality(1).measured)
       throw InvalidArgument("no entry xx and none yy: expected one");
   }
@@ -315,10 +145,7 @@ class HolderBuilder {
     } else {
       from_tip();
     }
-    for (const auto& h : holder_.receptance) {
-      holder_.couples_directions = holder_.couples_directions || !h.topRightCorner<2, 2>().isZero(0) ||
-                                   !h.bottomLeftCorner<2, 2>().isZero(0);
-    }
+    holder_.couples_directions = couple(holder_.receptance);
     for (int d = 0; d < 2; ++d) {
       if (!quality(d).measured) continue;
       for (std::size_t i = 0; i < lines_; ++i) {
@@ -335,7 +162,7 @@ class HolderBuilder {
   bool along_artefact() const {
     for (int d = 0; d < 2; ++d) {
       std::set<std::pair<double, double>> pairs;  // h(a, b) and h(b, a) say the same
-      for (const Tap* tap : taps_between(taps_, d, d))
+      for (const Tap* tap : taps_between(taps_, 2 * d, 2 * d))
         pairs.insert(std::minmax(tap->response_m, tap->reference_m));
       if (!pairs.empty() && pairs.size() < kDirectPairs) return false;
     }
@@ -344,7 +171,7 @@ class HolderBuilder {
 
   // Whether there are entries between the two directions that can be of use; says so when not.
   bool cross_wanted(int d, int e) {
-    if (all_zero(taps_between(taps_, d, e))) return false;
+    if (all_zero(taps_between(taps_, 2 * d, 2 * e))) return false;
     if (quality(0).measured && quality(1).measured) return true;
     holder_.cross_left_out = true;
     return false;
@@ -408,7 +235,7 @@ class HolderBuilder {
       quality(d).slopes = SlopeSource::kArtefact;
       for (int e = 0; e < 2; ++e) {
         auto& pairs = taps[static_cast<std::size_t>(d)][static_cast<std::size_t>(e)];
-        if (d == e || cross_wanted(d, e)) pairs = taps_between(taps_, d, e);
+        if (d == e || cross_wanted(d, e)) pairs = taps_between(taps_, 2 * d, 2 * e);
       }
     }
     // Cross entries in both senses, or not at all.
@@ -495,10 +322,9 @@ MeasuredHolder modal_holder(const ModalModel& model, const Eigen::VectorXd& freq
         if (from >= 0 && to >= 0) at_joint(i, j) = h(from, to);
       }
     }
-    holder.couples_directions = holder.couples_directions || !at_joint.topRightCorner<2, 2>().isZero(0) ||
-                                !at_joint.bottomLeftCorner<2, 2>().isZero(0);
     holder.receptance.push_back(at_joint);
   }
+  holder.couples_directions = couple(holder.receptance);
   return holder;
 }
 

@@ -38,7 +38,7 @@ struct MeasuredHolder {
   std::vector<Receptance<4>> receptance;  ///< [lines] w_x, slope_x, w_y, slope_y; zero where not measured
   std::array<HolderQuality, 2> quality;   ///< in x and in y
   bool couples_directions = false;        ///< cross entries other than zero
-  bool cross_left_out = false;            ///< there were some, but too few to take the artefact off
+  bool cross_left_out = false;            ///< there were some, but not what it takes to use them
 };
 
 /// The receptance at the face on the given lines: the measured ones, or between them by cubic interpolation.
