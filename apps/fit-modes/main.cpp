@@ -1,9 +1,11 @@
 // fit-modes: frequency responses in, modal table out; or, with --synthesize, the other way.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string_view>
 
 #include "base/error.h"
 #include "cli/exit_status.h"
@@ -18,6 +20,9 @@
 
 namespace stablecut {
 namespace {
+
+// By ModeModel.
+constexpr std::array<std::string_view, 3> kModelNames = {"nonsymmetric", "symmetric", "proportional"};
 
 class FitModes : public cli::Tool {
  public:
@@ -44,10 +49,12 @@ class FitModes : public cli::Tool {
            },
            "Number of modes (default: auto)")
         ->type_name("auto|N");
+    cli::add_choice_option(app, "--model", model_, "nonsymmetric|symmetric|proportional|best",
+                           "Form of the modes (default: nonsymmetric); best: by Schwarz' criterion");
     add_file_option(app, "--fitted", fitted_path_,
                     "Also write the fitted model on the measured lines, an frf");
-    fit_options_ = {app.get_option("--from"), app.get_option("--quantity"), app.get_option("--band"),
-                    app.get_option("--modes"), app.get_option("--fitted")};
+    fit_options_ = {app.get_option("--from"),  app.get_option("--quantity"), app.get_option("--band"),
+                    app.get_option("--modes"), app.get_option("--model"),    app.get_option("--fitted")};
 
     cli::add_range_option(app, "--synthesize", synthesize_,
                           "Write the frf of a modal table on these lines, Hz");
@@ -95,7 +102,7 @@ class FitModes : public cli::Tool {
     for (const std::string& text : result.warnings) warn(input_name_ + ": " + text);
 
     Json document = modal_table_to_json(result.model);
-    document["fit"] = fit_report(result, measured);
+    document["fit"].update(fit_report(result, measured));
     write_document(main_output(), std::move(document));
     if (!fitted_path_.empty()) {
       FrequencyResponse fitted = synthesize(result.model, measured.frequency_hz);
@@ -106,11 +113,18 @@ class FitModes : public cli::Tool {
     }
   }
 
+  std::optional<ModeModel> mode_model() const {
+    if (model_ == "best") return std::nullopt;
+    const auto name = std::find(kModelNames.begin(), kModelNames.end(), model_);
+    return name == kModelNames.end() ? ModeModel::kNonsymmetric
+                                     : static_cast<ModeModel>(name - kModelNames.begin());
+  }
+
   // Failures with the input's name before them.
   ModalFit fit_measured(const FrequencyResponse& measured) const {
     try {
       cli::ProgressBar bar("fit-modes", !quiet());
-      ModalFit result = fit_modes(measured, {modes_, [&](double share) { bar.show(share); }});
+      ModalFit result = fit_modes(measured, {modes_, mode_model(), [&](double share) { bar.show(share); }});
       if (!result.converged) throw NoAnswer("the fit did not converge");
       return result;
     } catch (const InvalidArgument& error) {
@@ -163,20 +177,30 @@ class FitModes : public cli::Tool {
                         {"relative_error", curve.relative_error},
                         {"reduced_chi_square", curve.reduced_chi_square}});
     }
-    Json report = {{"model", "nonsymmetric"},
+    Json models = Json::array();
+    for (const ModelCriterion& criterion : fit.criteria) {
+      models.push_back({{"model", kModelNames[static_cast<std::size_t>(criterion.model)]},
+                        {"modes", criterion.modes},
+                        {"parameters", criterion.parameters},
+                        {"chi_square", criterion.chi_square},
+                        {"bic", criterion.bic}});
+    }
+    Json report = {{"model", kModelNames[static_cast<std::size_t>(fit.mode_model)]},
                    {"band_hz", Json::array({measured.frequency_hz[0],
                                             measured.frequency_hz[measured.frequency_hz.size() - 1]})},
                    {"lines", measured.frequency_hz.size()},
                    {"noise", fit.variance_given ? "given" : "estimated"},
-                   {"criterion", "bic"},
+                   {"criterion", {{"name", "bic"}, {"models", std::move(models)}}},
                    {"stopped_by", fit.limited_by_model ? "model error" : "noise"},
                    {"relative_error", fit.relative_error},
                    {"reduced_chi_square", fit.reduced_chi_square},
                    {"curves", std::move(curves)}};
+    if (fit.reciprocity)
+      report["non_reciprocity"] = {{"index", fit.reciprocity->index}, {"of_noise", fit.reciprocity->noise}};
     return report;
   }
 
-  std::string from_, quantity_, fitted_path_, input_name_;
+  std::string from_, quantity_, model_, fitted_path_, input_name_;
   std::optional<Range> band_, synthesize_;
   std::optional<int> modes_, seed_;
   std::optional<double> noise_db_, noise_floor_db_;

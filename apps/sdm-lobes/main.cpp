@@ -173,16 +173,16 @@ class SdmLobes : public cli::Tool {
 
   ModalModel selected_modes(const ModalModel& model, const Source& source) const {
     if (!modes_) return model;
-    ModalModel selected{model.dofs, {}};
+    std::vector<std::size_t> selected;
     for (const int index : *modes_) {
       if (static_cast<std::size_t>(index) > model.modes.size()) {
         throw cli::Failure(cli::ExitStatus::kUsage,
                            "--modes: " + std::to_string(index) + ": expected at most " +
                                std::to_string(model.modes.size()) + ", the modes of " + source.name);
       }
-      selected.modes.push_back(model.modes[static_cast<std::size_t>(index - 1)]);
+      selected.push_back(static_cast<std::size_t>(index - 1));
     }
-    return selected;
+    return chosen_modes(model, selected);
   }
 
   static TipStructure structure_of(const ModalModel& model, const Source& source) {
@@ -208,7 +208,7 @@ class SdmLobes : public cli::Tool {
     std::vector<ModeLimit> result;
     cli::ProgressBar bar("sdm-lobes: modes", !quiet());
     for (std::size_t i = 0; i < indices.size(); ++i) {
-      const ModalModel alone{model.dofs, {model.modes[static_cast<std::size_t>(indices[i] - 1)]}};
+      const ModalModel alone = chosen_modes(model, {static_cast<std::size_t>(indices[i] - 1)});
       ModeLimit limit{indices[i], std::vector<std::optional<StabilityLimit>>(revolutions_per_s.size())};
       // A mode that a force at the tip does not drive, or that does not move it, cannot chatter.
       if (const TipStructure structure = tip_structure(alone); structure.modes() > 0) {

@@ -30,6 +30,87 @@ Json vector_to(const Eigen::VectorXcd& psi) {
   return list;
 }
 
+// Names of a mode's parameters in the order of a covariance.
+std::vector<std::string> parameter_names(std::size_t dofs) {
+  std::vector<std::string> names = {"frequency_hz", "damping_ratio"};
+  for (const char* vector : {"psi_r/", "psi_l/"}) {
+    for (std::size_t i = 0; i < dofs; ++i) {
+      for (const char* part : {"/re", "/im"}) names.push_back(vector + std::to_string(i) + part);
+    }
+  }
+  return names;
+}
+
+// "/modes/0/psi_r/1/re" and the like, for all modes in the order of a covariance.
+std::vector<std::string> parameter_pointers(const ModalModel& model) {
+  std::vector<std::string> pointers;
+  for (std::size_t k = 0; k < model.modes.size(); ++k) {
+    for (const std::string& name : parameter_names(model.dofs.size()))
+      pointers.push_back("/modes/" + std::to_string(k) + "/" + name);
+  }
+  return pointers;
+}
+
+// The signs of turned dofs, for each parameter of a mode.
+Eigen::VectorXd parameter_signs(const std::vector<double>& of_dofs) {
+  const auto dofs = static_cast<Eigen::Index>(of_dofs.size());
+  Eigen::VectorXd signs = Eigen::VectorXd::Ones(2 + 4 * dofs);
+  for (Eigen::Index i = 0; i < 2 * dofs; ++i)
+    signs.segment<2>(2 + 2 * i).setConstant(of_dofs[static_cast<std::size_t>(i % dofs)]);
+  return signs;
+}
+
+// What is not listed is taken as exact.
+Eigen::MatrixXd covariance_from(const Node& node, const ModalModel& model, const std::vector<double>& signs) {
+  const std::vector<std::string> known = parameter_pointers(model);
+  std::vector<Eigen::Index> at;
+  for (const Node& item : node.at("parameters").items()) {
+    const auto found = std::find(known.begin(), known.end(), item.text());
+    const Eigen::Index index = found - known.begin();
+    if (found == known.end() || std::find(at.begin(), at.end(), index) != at.end())
+      item.fail("expected the pointer of a number in /modes, as /modes/0/psi_r/1/re, each once");
+    at.push_back(index);
+  }
+  const Eigen::VectorXd sign =
+      parameter_signs(signs).replicate(static_cast<Eigen::Index>(model.modes.size()), 1);
+  const auto rows = node.at("matrix").items();
+  const auto size = static_cast<Eigen::Index>(at.size());
+  if (rows.size() != at.size())
+    node.at("matrix").fail("expected " + std::to_string(at.size()) + " rows, one for each of the parameters");
+  const auto count = static_cast<Eigen::Index>(known.size());
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(count, count);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const Eigen::VectorXd row = rows[i].numbers();
+    if (row.size() != size)
+      rows[i].fail("expected " + std::to_string(size) + " numbers, one for each parameter");
+    if (row[static_cast<Eigen::Index>(i)] < 0) rows[i].fail("expected a variance that is not negative");
+    for (std::size_t j = 0; j < at.size(); ++j)
+      matrix(at[i], at[j]) = row[static_cast<Eigen::Index>(j)] * sign[at[i]] * sign[at[j]];
+  }
+  if (!matrix.isApprox(matrix.transpose(), 1e-9)) node.at("matrix").fail("expected a symmetric matrix");
+  return matrix;
+}
+
+Json covariance_to(const ModalModel& model) {
+  Json rows = Json::array();
+  for (const auto& row : model.covariance.rowwise())
+    rows.push_back(std::vector<double>(row.begin(), row.end()));
+  return {{"parameters", parameter_pointers(model)}, {"matrix", std::move(rows)}};
+}
+
+Json deviation_to(const Eigen::VectorXd& deviation, Eigen::Index dofs) {
+  const auto vector = [&](Eigen::Index first) {
+    Json list = Json::array();
+    for (Eigen::Index i = 0; i < dofs; ++i)
+      list.push_back({deviation[first + 2 * i], deviation[first + 2 * i + 1]});
+    return list;
+  };
+  return {{"frequency_hz", deviation[0]},
+          {"damping_ratio", deviation[1]},
+          {"psi_r", vector(2)},
+          {"psi_l", vector(2 + 2 * dofs)}};
+}
+
 }  // namespace
 
 ModalModel modal_table_from_json(const Json& document, const Source& source, const std::string& pointer) {
@@ -55,14 +136,13 @@ ModalModel modal_table_from_json(const Json& document, const Source& source, con
       mode.psi_l[static_cast<Eigen::Index>(i)] *= sign[i];
     }
     if (const auto out = item.find("out_of_band")) mode.out_of_band = out->boolean();
-    if (const auto std_node = item.find("std")) {
-      std_node->check_names({"frequency_hz", "damping_ratio", "psi_r", "psi_l"});
-      if (std_node->has("frequency_hz") && std_node->has("damping_ratio")) {
-        mode.deviation = {std_node->at("frequency_hz").number(kNotNegative),
-                          std_node->at("damping_ratio").number(kNotNegative)};
-      }
-    }
+    if (const auto deviation = item.find("std"))
+      deviation->check_names({"frequency_hz", "damping_ratio", "psi_r", "psi_l"});
     model.modes.push_back(std::move(mode));
+  }
+  if (const auto fit = root.find("fit")) {
+    if (const auto covariance = fit->find("covariance"))
+      model.covariance = covariance_from(*covariance, model, sign);
   }
   return model;
 }
@@ -76,13 +156,15 @@ Json modal_table_to_json(const ModalModel& model) {
                  {"psi_r", vector_to(mode.psi_r)},
                  {"psi_l", vector_to(mode.psi_l)}};
     if (mode.out_of_band) item["out_of_band"] = true;
-    if (mode.deviation) {
-      item["std"] = {{"frequency_hz", mode.deviation->frequency_hz},
-                     {"damping_ratio", mode.deviation->damping_ratio}};
+    if (model.covariance.size() > 0) {
+      item["std"] = deviation_to(model.deviation(static_cast<Eigen::Index>(modes.size())),
+                                 static_cast<Eigen::Index>(model.dofs.size()));
     }
     modes.push_back(std::move(item));
   }
-  return {{"format", "stablecut/modal-table/1"}, {"dofs", model.dofs}, {"modes", std::move(modes)}};
+  Json document = {{"format", "stablecut/modal-table/1"}, {"dofs", model.dofs}, {"modes", std::move(modes)}};
+  if (model.covariance.size() > 0) document["fit"]["covariance"] = covariance_to(model);
+  return document;
 }
 
 }  // namespace stablecut

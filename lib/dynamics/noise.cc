@@ -1,5 +1,6 @@
 #include "dynamics/noise.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -30,8 +31,42 @@ Eigen::VectorXd windowed_mean(const Eigen::VectorXd& square) {
 
 // Log-likelihood of squared complex Gaussians.
 double likelihood(const Eigen::VectorXd& square, const Eigen::VectorXd& variance) {
-  const auto inner = variance.segment(2, square.size()).array().max(1e-300);
-  return -(inner.log() + square.array() / inner).sum();
+  const auto positive = variance.array().max(1e-300);
+  return -(positive.log() + square.array() / positive).sum();
+}
+
+// The likeliest floor + share * size_square, both not negative, by Fisher scoring.
+Eigen::VectorXd floor_and_share(const Eigen::VectorXd& square, const Eigen::VectorXd& size_square) {
+  constexpr int kSteps = 30;
+  const double mean = square.mean();
+  const Eigen::ArrayXd size = size_square.array() / std::max(size_square.mean(), 1e-300);
+  const double share = (square.array() / size.max(1e-300)).mean();
+  Eigen::Vector2d part(mean / 2, mean / 2);
+  for (int step = 0; step < kSteps; ++step) {
+    const Eigen::ArrayXd weight = (part[0] + part[1] * size).square().max(1e-300).inverse();
+    Eigen::Matrix2d normal;
+    normal << weight.sum(), (weight * size).sum(), (weight * size).sum(), (weight * size.square()).sum();
+    const Eigen::Vector2d right((weight * square.array()).sum(), (weight * size * square.array()).sum());
+    const Eigen::Vector2d next = normal.inverse() * right;
+    if (!next.allFinite()) break;
+    part = next.cwiseMax(1e-6 * part);
+  }
+  Eigen::VectorXd best = Eigen::VectorXd::Constant(square.size(), mean);
+  for (const Eigen::VectorXd& other :
+       {Eigen::VectorXd(share * size), Eigen::VectorXd(part[0] + part[1] * size)}) {
+    if (likelihood(square, other) > likelihood(square, best)) best = other;
+  }
+  return best;
+}
+
+Eigen::VectorXd running_mean(const Eigen::VectorXd& square) {
+  const Eigen::Index half = std::min(kHalfWindow, (square.size() - 1) / 2);
+  Eigen::VectorXd mean(square.size());
+  for (Eigen::Index i = 0; i < square.size(); ++i) {
+    const Eigen::Index first = std::clamp<Eigen::Index>(i - half, 0, square.size() - 1 - 2 * half);
+    mean[i] = square.segment(first, 2 * half + 1).mean();
+  }
+  return mean;
 }
 
 }  // namespace
@@ -50,7 +85,20 @@ Eigen::VectorXd estimated_variance(const Eigen::VectorXcd& values, const Eigen::
   const Eigen::VectorXd size_square = size.cwiseAbs2().array().max(1e-300);
   const Eigen::VectorXd following =
       windowed_mean(square.cwiseQuotient(size_square.segment(2, count))).cwiseProduct(size_square);
-  return likelihood(square, following) > likelihood(square, plain) ? following : plain;
+  return likelihood(square, following.segment(2, count)) > likelihood(square, plain.segment(2, count))
+             ? following
+             : plain;
+}
+
+Eigen::VectorXd residual_variance(const Eigen::VectorXcd& residual, const Eigen::VectorXd& size) {
+  const Eigen::VectorXd square = residual.cwiseAbs2();
+  const Eigen::VectorXd smooth = floor_and_share(square, size.cwiseAbs2());
+  const Eigen::VectorXd local = running_mean(square);
+  // Schwarz: each window is a parameter more.
+  const auto lines = static_cast<double>(square.size());
+  const double windows = lines / static_cast<double>(2 * kHalfWindow + 1);
+  return likelihood(square, local) - likelihood(square, smooth) > windows * std::log(lines) / 2 ? local
+                                                                                                : smooth;
 }
 
 double correlation_length(const Eigen::VectorXcd& residual) {

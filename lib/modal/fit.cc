@@ -1,13 +1,16 @@
 #include "modal/fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <memory>
+#include <numeric>
 
 #include "base/error.h"
 #include "base/units.h"
 #include "modal/fit_data.h"
+#include "modal/fitted_table.h"
 #include "modal/maximum_likelihood.h"
 #include "modal/mode_search.h"
 
@@ -56,33 +59,6 @@ std::vector<Eigen::VectorXd> known_variances(const FrequencyResponse& measured, 
   return result;
 }
 
-// Vector components that no curve of the group shows, because nothing was measured or nothing pushed in that
-// direction: set by reciprocity from a direction in which both was done, else zero. True when there was any.
-bool complete_by_reciprocity(const FitData& data, Mode& mode) {
-  std::vector<bool> seen_r(static_cast<std::size_t>(data.dofs)), seen_l(seen_r.size());
-  for (const Curve& curve : data.curves) {
-    seen_r[static_cast<std::size_t>(curve.response)] = true;
-    seen_l[static_cast<std::size_t>(curve.reference)] = true;
-  }
-  Complex ratio = 0;  // psi_l / psi_r where both are known and largest
-  double best = 0;
-  for (std::size_t i = 0; i < seen_r.size(); ++i) {
-    const Complex r = mode.psi_r[static_cast<Eigen::Index>(i)], l = mode.psi_l[static_cast<Eigen::Index>(i)];
-    if (seen_r[i] && seen_l[i] && std::abs(r * l) > best) {
-      best = std::abs(r * l);
-      ratio = l / r;
-    }
-  }
-  bool any = false;
-  for (std::size_t i = 0; i < seen_r.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
-    if (!seen_l[i]) mode.psi_l[at] = mode.psi_r[at] * ratio;
-    if (!seen_r[i]) mode.psi_r[at] = best > 0 ? mode.psi_l[at] / ratio : 0.0;
-    any = any || !seen_l[i] || !seen_r[i];
-  }
-  return any;
-}
-
 // Entries that the document does not have although it has both of their directions.
 std::string missing_entries(const FrequencyResponse& measured, const std::vector<std::string>& dofs) {
   std::string list;
@@ -102,19 +78,161 @@ std::optional<int> wanted_modes(const FitOptions& options, std::size_t groups, s
   return std::max(1, *options.modes / count + (static_cast<int>(group) < *options.modes % count ? 1 : 0));
 }
 
-// A group that has been fitted, and what it was fitted to.
-struct FittedGroup {
+constexpr std::array kModels = {ModeModel::kNonsymmetric, ModeModel::kSymmetric, ModeModel::kProportional};
+
+// An independent group of directions.
+struct Group {
+  std::vector<std::string> directions;
   std::optional<int> wanted;
-  std::vector<Eigen::VectorXd> variance;
-  std::shared_ptr<ModeSearch> search;
+  std::vector<Eigen::VectorXd> variance;  // given; empty when any is unknown
+  FitData data;
 };
 
-// The same curves between the same directions of a group.
-bool alike(const FitData& a, const FitData& b) {
-  return std::equal(a.curves.begin(), a.curves.end(), b.curves.begin(), b.curves.end(),
+std::vector<Group> groups_of(const FrequencyResponse& measured, const FitOptions& options) {
+  const std::vector<DirectionGroup> parts = independent_groups(measured);
+  if (parts.empty()) throw NoAnswer("all entries are zero: there is no mode to find");
+  std::vector<Group> groups;
+  for (std::size_t g = 0; g < parts.size(); ++g) {
+    Group group;
+    group.directions = group_directions(measured, parts[g], direction_names(measured));
+    group.wanted = wanted_modes(options, parts.size(), g);
+    group.variance = known_variances(measured, parts[g]);
+    group.data = group_data(measured, parts[g], group.directions);
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+// The same curves between the same directions of a group, known as well.
+bool alike(const Group& a, const Group& b) {
+  return a.wanted == b.wanted && a.variance == b.variance &&
+         std::equal(a.data.curves.begin(), a.data.curves.end(), b.data.curves.begin(), b.data.curves.end(),
                     [](const Curve& p, const Curve& q) {
                       return p.response == q.response && p.reference == q.reference && p.h == q.h;
                     });
+}
+
+// Each group's modes in one model.
+using Searches = std::vector<std::shared_ptr<ModeSearch>>;
+
+Searches search_groups(const std::vector<Group>& groups, ModeModel model, const Progress& progress) {
+  Searches searches;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    // A round tool in a round spindle: the same numbers in y as in x need no second fit.
+    const auto same = std::find_if(groups.begin(), groups.begin() + static_cast<std::ptrdiff_t>(g),
+                                   [&](const Group& other) { return alike(other, groups[g]); });
+    const auto at = static_cast<std::size_t>(same - groups.begin());
+    if (at < g) {
+      searches.push_back(searches[at]);
+      continue;
+    }
+    searches.push_back(
+        std::make_shared<ModeSearch>(groups[g].data, groups[g].variance, model, groups[g].wanted));
+    searches.back()->run(progress);
+  }
+  return searches;
+}
+
+ModelCriterion criterion_of(const Searches& searches, const std::vector<double>& inflation) {
+  ModelCriterion criterion;
+  criterion.model = searches[0]->model();
+  for (std::size_t g = 0; g < searches.size(); ++g) {
+    const ModeSearch& search = *searches[g];
+    const auto modes = static_cast<double>(search.result().modes.size());
+    criterion.modes += search.result().modes.size();
+    criterion.parameters += modes * search.parameters_per_mode();
+    criterion.chi_square += search.result().chi_square;
+    criterion.bic += 2 * search.result().chi_square / inflation[g] +
+                     modes * search.parameters_per_mode() * std::log(search.data().values());
+  }
+  return criterion;
+}
+
+// The modes in the model that the options want, or in the best: all are judged by the noise, and the model
+// error, of the least restricted one.
+Searches chosen_searches(const std::vector<Group>& groups, const FitOptions& options,
+                         std::vector<ModelCriterion>& criteria) {
+  Searches best = search_groups(groups, options.model.value_or(kModels[0]), options.progress);
+  std::vector<double> inflation;
+  for (const auto& search : best) inflation.push_back(search->inflation());
+  criteria.push_back(criterion_of(best, inflation));
+  if (options.model) return best;
+  const Searches first = best;
+  double least = criteria[0].bic;
+  for (const ModeModel model : {kModels[1], kModels[2]}) {
+    Searches restricted;
+    for (const auto& search : first) {
+      restricted.push_back(std::make_shared<ModeSearch>(*search));
+      restricted.back()->change_model(model);
+    }
+    criteria.push_back(criterion_of(restricted, inflation));
+    if (criteria.back().bic >= least) continue;
+    least = criteria.back().bic;
+    best = std::move(restricted);
+  }
+  return best;
+}
+
+std::optional<Reciprocity> reciprocity_of(const Searches& searches) {
+  double difference = 0, sizes = 0, noise = 0;
+  for (const auto& search : searches) {
+    const std::vector<Curve>& curves = search->data().curves;
+    for (const Curve& a : curves) {
+      for (const Curve& b : curves) {
+        if (a.response >= a.reference || b.response != a.reference || b.reference != a.response) continue;
+        difference += (a.h - b.h).squaredNorm();
+        sizes += std::pow(a.h.norm() + b.h.norm(), 2);
+        noise += (a.weight.cwiseInverse() + b.weight.cwiseInverse()).sum();
+      }
+    }
+  }
+  if (sizes == 0) return std::nullopt;
+  return Reciprocity{std::sqrt(difference / sizes), std::sqrt(noise / sizes)};
+}
+
+// Adds a group's modes to the whole table: exact zeros where the group does not reach.
+void add_table(const FittedTable& table, const std::vector<std::string>& directions, double inflation,
+               ModalModel& model) {
+  const Eigen::Index before = model.covariance.rows(), whole = model.parameters_per_mode();
+  const auto own = 2 + 4 * static_cast<Eigen::Index>(directions.size());
+  std::vector<Eigen::Index> at;  // of the group's parameters in the whole covariance
+  for (std::size_t k = 0; k < table.modes.size(); ++k) {
+    const Mode& mode = table.modes[k];
+    Mode added = mode;
+    added.psi_r = added.psi_l = Eigen::VectorXcd::Zero(static_cast<Eigen::Index>(model.dofs.size()));
+    const Eigen::Index first = before + static_cast<Eigen::Index>(k) * whole;
+    for (Eigen::Index p = 0; p < own; ++p) at.push_back(first + p);
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      const auto from = static_cast<Eigen::Index>(i);
+      const Eigen::Index to = model.dof(directions[i]);
+      added.psi_r[to] = mode.psi_r[from];
+      added.psi_l[to] = mode.psi_l[from];
+      for (Eigen::Index part = 0; part < 2; ++part) {
+        const std::size_t block = k * static_cast<std::size_t>(own);
+        at[block + static_cast<std::size_t>(2 + 2 * from + part)] = first + 2 + 2 * to + part;
+        at[block + static_cast<std::size_t>(own / 2 + 1 + 2 * from + part)] =
+            first + whole / 2 + 1 + 2 * to + part;
+      }
+    }
+    model.modes.push_back(std::move(added));
+  }
+  const Eigen::Index size = before + static_cast<Eigen::Index>(table.modes.size()) * whole;
+  model.covariance.conservativeResizeLike(Eigen::MatrixXd::Zero(size, size));
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    for (std::size_t j = 0; j < at.size(); ++j) {
+      model.covariance(at[i], at[j]) =
+          inflation * table.covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    }
+  }
+}
+
+ModalModel sorted_by_frequency(const ModalModel& model) {
+  std::vector<std::size_t> order(model.modes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return model.modes[a].frequency_hz < model.modes[b].frequency_hz;
+  });
+  return chosen_modes(model, order);
 }
 
 }  // namespace
@@ -125,36 +243,20 @@ ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options)
     throw InvalidArgument("expected at least " + std::to_string(kLeastLines) +
                           " lines to fit modes to, not " + std::to_string(measured.frequency_hz.size()));
   }
-  const std::vector<DirectionGroup> groups = independent_groups(measured);
-  if (groups.empty()) throw NoAnswer("all entries are zero: there is no mode to find");
-
+  const std::vector<Group> groups = groups_of(measured, options);
   ModalFit fit;
   fit.model.dofs = direction_names(measured);
   fit.variance_given = true;
   fit.converged = true;
+  const Searches searches = chosen_searches(groups, options, fit.criteria);
+  fit.mode_model = searches[0]->model();
+  fit.reciprocity = reciprocity_of(searches);
   bool by_reciprocity = false;
   double chi_square = 0, values = 0, error_square = 0, square = 0;
-  std::vector<FittedGroup> fitted;
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    const DirectionGroup& group = groups[g];
-    const std::vector<std::string> directions = group_directions(measured, group, fit.model.dofs);
-    const std::vector<Eigen::VectorXd> variance = known_variances(measured, group);
-    const bool given = !variance.empty();
-    FitData data = group_data(measured, group, directions);
-    const std::optional<int> wanted = wanted_modes(options, groups.size(), g);
-    // A round tool in a round spindle: the same numbers in y as in x need no second fit.
-    const auto same = std::find_if(fitted.begin(), fitted.end(), [&](const FittedGroup& other) {
-      return other.wanted == wanted && other.variance == variance && alike(other.search->data(), data);
-    });
-    if (same == fitted.end()) {
-      fitted.push_back({wanted, variance, std::make_shared<ModeSearch>(std::move(data), variance, wanted)});
-      fitted.back().search->run(options.progress);
-    } else {
-      fitted.push_back(*same);
-    }
-    const ModeSearch& part = *fitted.back().search;
+    const ModeSearch& part = *searches[g];
     fit.variance_given = fit.variance_given && !part.noise_estimated();
-    if (given && part.noise_estimated()) {
+    if (!groups[g].variance.empty() && part.noise_estimated()) {
       fit.warnings.push_back(
           "the residual is much larger than the given variance: the noise was estimated instead");
     }
@@ -166,30 +268,20 @@ ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options)
       const Eigen::VectorXcd error = curve_of(part.result().modes, curve, part.data().s) - curve.h;
       error_square += error.squaredNorm();
       square += curve.h.squaredNorm();
-      fit.curves.push_back({directions[static_cast<std::size_t>(curve.response)],
-                            directions[static_cast<std::size_t>(curve.reference)],
+      fit.curves.push_back({groups[g].directions[static_cast<std::size_t>(curve.response)],
+                            groups[g].directions[static_cast<std::size_t>(curve.reference)],
                             curve.h.isZero(0) ? 0.0 : error.norm() / curve.h.norm(),
                             error.cwiseAbs2().dot(curve.weight) / static_cast<double>(error.size())});
     }
-    for (Mode mode : part.result().modes) {
-      by_reciprocity = complete_by_reciprocity(part.data(), mode) || by_reciprocity;
-      // Into all directions: exact zeros where the group does not reach.
-      Mode whole = mode;
-      whole.psi_r = whole.psi_l = Eigen::VectorXcd::Zero(static_cast<Eigen::Index>(fit.model.dofs.size()));
-      for (std::size_t i = 0; i < directions.size(); ++i) {
-        const Eigen::Index row = fit.model.dof(directions[i]);
-        whole.psi_r[row] = mode.psi_r[static_cast<Eigen::Index>(i)];
-        whole.psi_l[row] = mode.psi_l[static_cast<Eigen::Index>(i)];
-      }
-      whole.out_of_band = mode.frequency_hz < measured.frequency_hz[0] ||
-                          mode.frequency_hz > measured.frequency_hz[measured.frequency_hz.size() - 1];
-      // Where the model error limits the fit, the weights are not the noise: no standard deviation is known.
-      if (part.limited_by_model()) whole.deviation.reset();
-      fit.model.modes.push_back(normalised(whole));
-    }
+    const FittedTable table = fitted_table(part.data(), part.result().modes, part.model());
+    by_reciprocity = by_reciprocity || table.by_reciprocity;
+    add_table(table, groups[g].directions, part.inflation(), fit.model);
   }
-  std::stable_sort(fit.model.modes.begin(), fit.model.modes.end(),
-                   [](const Mode& a, const Mode& b) { return a.frequency_hz < b.frequency_hz; });
+  for (Mode& mode : fit.model.modes) {
+    mode.out_of_band = mode.frequency_hz < measured.frequency_hz[0] ||
+                       mode.frequency_hz > measured.frequency_hz[measured.frequency_hz.size() - 1];
+  }
+  fit.model = sorted_by_frequency(fit.model);
   fit.relative_error = std::sqrt(error_square / square);
   fit.reduced_chi_square = chi_square / values;
   if (options.modes && static_cast<int>(fit.model.modes.size()) < *options.modes) {

@@ -13,12 +13,31 @@
 #include "base/progress.h"
 #include "dynamics/frequency_response.h"
 #include "dynamics/modal_model.h"
+#include "modal/mode_parameters.h"
 
 namespace stablecut {
 
 struct FitOptions {
   std::optional<int> modes;  ///< how many, instead of finding out; shared evenly among independent groups
+  /// Empty: the one of the three with the least information criterion.
+  std::optional<ModeModel> model = ModeModel::kNonsymmetric;
   Progress progress;
+};
+
+/// One model's share in the choice: Schwarz' criterion 2 chi_square + parameters log(values), smaller is
+/// better. With a model error chi-square counts as much less as it exceeds the noise.
+struct ModelCriterion {
+  ModeModel model = ModeModel::kNonsymmetric;
+  std::size_t modes = 0;
+  double parameters = 0;
+  double chi_square = 0;
+  double bic = 0;
+};
+
+/// How far the measurement is from reciprocal: sums over all pairs of directions measured both ways.
+struct Reciprocity {
+  double index = 0;  ///< |H_ij - H_ji| / (|H_ij| + |H_ji|), norms over the lines: 0 reciprocal, at most 1
+  double noise = 0;  ///< what the noise alone would make of it
 };
 
 /// How well one measured curve is met.
@@ -29,7 +48,10 @@ struct CurveFit {
 };
 
 struct ModalFit {
-  ModalModel model;  ///< modes by frequency; out of band marked
+  ModalModel model;  ///< modes by frequency; out of band marked; with its covariance
+  ModeModel mode_model = ModeModel::kNonsymmetric;
+  std::vector<ModelCriterion> criteria;  ///< of the models that were tried
+  std::optional<Reciprocity> reciprocity;
   std::vector<CurveFit> curves;
   double relative_error = 0;  ///< over all curves together
   double reduced_chi_square = 0;

@@ -5,22 +5,23 @@
 
 #include "dynamics/modal_model.h"
 #include "modal/fit_data.h"
+#include "modal/mode_parameters.h"
 
 namespace stablecut {
 
 struct RefinedModes {
-  std::vector<Mode> modes;  ///< with standard deviations for the noise that the weights say
-  double chi_square = 0;    ///< sum over lines and curves of |model - h|^2 / variance
+  std::vector<Mode> modes;
+  double chi_square = 0;  ///< sum over lines and curves of |model - h|^2 / variance
   bool converged = false;
   /// Loss in chi-square, to second order, when the mode's residue is taken away and all else adapts: [modes].
   Eigen::VectorXd removal_loss;
 };
 
 /// Minimises the weighted squared error of all curves at once over poles and vectors, from the given modes.
-/// Each mode is described without redundancy: the logarithms of damping and frequency, psi_r with its largest
-/// component fixed, psi_l. Modes that start outside the band are held near it and damped by a weak prior,
-/// which chi_square holds. At most `iterations` steps of Levenberg-Marquardt with analytic derivatives.
-RefinedModes refine_modes(const FitData& data, const std::vector<Mode>& start, int iterations);
+/// Modes that start outside the band are held near it by a weak prior, which chi_square holds. At most
+/// `iterations` steps of Levenberg-Marquardt with analytic derivatives.
+RefinedModes refine_modes(const FitData& data, const std::vector<Mode>& start, ModeModel model,
+                          int iterations);
 
 /// The model on the data's lines for one curve.
 Eigen::VectorXcd curve_of(const std::vector<Mode>& modes, const Curve& curve, const Eigen::VectorXcd& s);

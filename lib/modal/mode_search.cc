@@ -85,9 +85,11 @@ struct PoleShape {
 
 }  // namespace
 
-ModeSearch::ModeSearch(FitData data, std::vector<Eigen::VectorXd> variance, std::optional<int> wanted_modes)
+ModeSearch::ModeSearch(FitData data, std::vector<Eigen::VectorXd> variance, ModeModel model,
+                       std::optional<int> wanted_modes)
     : data_(std::move(data)),
       variance_(std::move(variance)),
+      model_(model),
       estimate_noise_(variance_.empty()),
       wanted_modes_(wanted_modes),
       floor_(kCoarseFloor) {
@@ -114,8 +116,11 @@ void ModeSearch::run(const Progress& progress) {
     build_up();
   } else if (floor_matters()) {
     tighten();
+  } else if (estimate_noise_) {
+    settle_noise();
+    select();
   }
-  current_ = refine_modes(data_, current_.modes, 4 * kFinalSteps);
+  current_ = refined(current_.modes, 4 * kFinalSteps);
 }
 
 // A few modes may have been overlooked; if it is not that, there is no use in weighing modes against noise.
@@ -150,7 +155,32 @@ void ModeSearch::reweight() {
     variance_[e] = estimated_variance(model - curve.h, model.cwiseAbs());
   }
   set_weights();
-  current_ = refine_modes(data_, current_.modes, kFinalSteps);
+  current_ = refined(current_.modes, kFinalSteps);
+}
+
+// The same once the modes are known, from all of the residual: the fewer the numbers that describe the noise,
+// the surer the weights.
+void ModeSearch::settle_noise() {
+  const double parameters = parameters_per_mode() * static_cast<double>(current_.modes.size());
+  const double correction = data_.values() / std::max(data_.values() - parameters, 1.0);
+  for (std::size_t e = 0; e < data_.curves.size(); ++e) {
+    const Curve& curve = data_.curves[e];
+    const Eigen::VectorXcd model = curve_of(current_.modes, curve, data_.s);
+    variance_[e] = correction * residual_variance(model - curve.h, model.cwiseAbs());
+  }
+  set_weights();
+  current_ = refined(current_.modes, kFinalSteps);
+}
+
+RefinedModes ModeSearch::refined(const std::vector<Mode>& modes, int iterations) const {
+  return refine_modes(data_, modes, model_, iterations);
+}
+
+void ModeSearch::change_model(ModeModel model) {
+  model_ = model;
+  current_ = refined(current_.modes, kFinalSteps);
+  remove_modes();
+  current_ = refined(current_.modes, 4 * kFinalSteps);
 }
 
 bool ModeSearch::exceeds_noise() const { return current_.chi_square / complex_values() > kModelErrorFactor; }
@@ -167,7 +197,7 @@ void ModeSearch::tighten() {
   const RefinedModes coarse = current_;
   const double coarse_floor = std::exchange(floor_, kFineFloor);
   set_weights();
-  current_ = refine_modes(data_, current_.modes, kFinalSteps);
+  current_ = refined(current_.modes, kFinalSteps);
   if (estimate_noise_) reweight();
   select();
   if (!exceeds_noise()) return;
@@ -180,7 +210,7 @@ void ModeSearch::tighten() {
 void ModeSearch::build_up() {
   limited_by_model_ = true;
   set_weights();
-  current_ = refine_modes(data_, {}, 0);
+  current_ = refined({}, 0);
   select();
 }
 
@@ -197,23 +227,38 @@ double ModeSearch::relative_error(const std::vector<Mode>& modes) const {
 
 // ---- the price of a mode ----
 
+double ModeSearch::parameters_per_mode() const {
+  std::vector<bool> right(static_cast<std::size_t>(data_.dofs)), left(right.size());
+  for (const Curve& curve : data_.curves) {
+    right[static_cast<std::size_t>(curve.response)] = true;
+    left[static_cast<std::size_t>(curve.reference)] = true;
+  }
+  const auto hidden =
+      std::count(right.begin(), right.end(), false) + std::count(left.begin(), left.end(), false);
+  const Eigen::Index all = ModeParameters::per_mode(model_, data_.dofs);
+  // The symmetric models show by one vector what the other hides.
+  return static_cast<double>(model_ == ModeModel::kNonsymmetric ? all - 2 * hidden : all);
+}
+
+double ModeSearch::inflation_of(const RefinedModes& modes) const {
+  double length = 0;
+  for (const Curve& curve : data_.curves) {
+    const Eigen::VectorXcd residual = curve_of(modes.modes, curve, data_.s) - curve.h;
+    length += correlation_length(curve.weight.cwiseSqrt().cwiseProduct(residual));
+  }
+  return std::max(1.0, modes.chi_square / complex_values()) * length /
+         static_cast<double>(data_.curves.size());
+}
+
 // Chi-square that a mode must take away: half its real parameters times the log of the number of values
-// (Schwarz). A residual that is larger than the noise, or smooth over lines, holds less information than its
-// length.
+// (Schwarz), of what the residual tells.
 double ModeSearch::price(const RefinedModes& without) const {
-  const double parameters = 2.0 + 2.0 * static_cast<double>(2 * data_.dofs - 1);
-  const double information = (parameters / 2) * std::log(data_.values());
+  const double information = (parameters_per_mode() / 2) * std::log(data_.values());
   if (limited_by_model_) {
     const double share = relative_error(without.modes) > kModelErrorFloor ? kLesserShare : kLargerShare;
     return std::max(information, share * without.chi_square);
   }
-  const double spread = std::max(1.0, without.chi_square / complex_values());
-  double length = 0;
-  for (const Curve& curve : data_.curves) {
-    const Eigen::VectorXcd residual = curve_of(without.modes, curve, data_.s) - curve.h;
-    length += correlation_length(curve.weight.cwiseSqrt().cwiseProduct(residual));
-  }
-  return information * spread * length / static_cast<double>(data_.curves.size());
+  return information * inflation_of(without);
 }
 
 // ---- candidates ----
@@ -243,7 +288,7 @@ void ModeSearch::find_modes() {
   const LinearResidues linear = linear_residues(data_, poles);
   std::vector<Mode> modes;
   for (Eigen::Index k = 0; k < poles.size(); ++k) modes.push_back(rank_one(poles[k], linear.residue.row(k)));
-  current_ = refine_modes(data_, modes, kStartSteps);
+  current_ = refined(modes, kStartSteps);
 }
 
 // The mode whose residue is nearest to the curves' residues; a missing curve counts as zero.
@@ -294,7 +339,7 @@ bool ModeSearch::remove_if_worthless(std::size_t k) {
   if (!forced && loss(k) > kBeyondDoubt * price(current_)) return false;
   std::vector<Mode> fewer = current_.modes;
   fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
-  RefinedModes trial = refine_modes(data_, fewer, kTrialSteps);
+  RefinedModes trial = refined(fewer, kTrialSteps);
   if (!forced && trial.chi_square - current_.chi_square >= price(trial)) return false;
   current_ = std::move(trial);
   return true;
@@ -314,7 +359,7 @@ bool ModeSearch::add_mode() {
   const Mode candidate = best_addition();
   std::vector<Mode> more = current_.modes;
   more.push_back(candidate);
-  RefinedModes trial = refine_modes(data_, more, 2 * kTrialSteps);
+  RefinedModes trial = refined(more, 2 * kTrialSteps);
   const double least_gain = wanted_modes_ ? 0.0 : price(current_);
   if (!(current_.chi_square - trial.chi_square > least_gain)) return false;
   if (std::any_of(trial.modes.begin(), trial.modes.end(),

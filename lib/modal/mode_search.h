@@ -19,11 +19,15 @@ class ModeSearch {
   /// `variance` [curves][lines] of the noise; empty: estimated from the curves and from what the model
   /// leaves. The weights of `data` are set here. With `wanted_modes` that many are kept, whatever they are
   /// worth.
-  ModeSearch(FitData data, std::vector<Eigen::VectorXd> variance, std::optional<int> wanted_modes);
+  ModeSearch(FitData data, std::vector<Eigen::VectorXd> variance, ModeModel model,
+             std::optional<int> wanted_modes);
 
   void run(const Progress& progress);
+  /// After a run: the modes found, as far as they are worth it, in another model with the same weights.
+  void change_model(ModeModel model);
 
   const FitData& data() const { return data_; }
+  ModeModel model() const { return model_; }
   const RefinedModes& result() const { return current_; }
   /// The residual is larger than the noise, and not made of modes.
   bool limited_by_model() const { return limited_by_model_; }
@@ -32,11 +36,19 @@ class ModeSearch {
   bool noise_estimated() const { return estimate_noise_; }
   /// Number of complex values fitted.
   double complex_values() const { return data_.values() / 2; }
+  /// Free real parameters of one mode, of those that some curve shows.
+  double parameters_per_mode() const;
+  /// How many times less the residual tells than its length: 1 where it is the noise, which is white; more
+  /// where it is larger, or smooth over lines.
+  double inflation() const { return limited_by_model_ ? inflation_of(current_) : 1; }
 
  private:
   void rescue();
   void set_weights();
   void reweight();
+  void settle_noise();
+  RefinedModes refined(const std::vector<Mode>& modes, int iterations) const;
+  double inflation_of(const RefinedModes& modes) const;
   bool exceeds_noise() const;
   bool floor_matters() const;
   void tighten();
@@ -57,6 +69,7 @@ class ModeSearch {
 
   FitData data_;
   std::vector<Eigen::VectorXd> variance_;  // of the noise, per curve
+  ModeModel model_;
   bool estimate_noise_;
   std::optional<int> wanted_modes_;
   Progress progress_;

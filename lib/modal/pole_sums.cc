@@ -86,35 +86,37 @@ PoleValues::PoleValues(const Eigen::VectorXcd& s, const Eigen::VectorXcd& poles)
   }
 }
 
-PoleSums::PoleSums(const PoleValues& values, const Eigen::VectorXd& weight, bool with_squares)
-    : values_(values) {
-  first_ = values.phi.transpose() * weight;
-  first_conj_ = values.phi_conj.transpose() * weight;
-  if (!with_squares) return;
-  second_.resize(values.pole.size());
-  second_conj_.resize(values.pole.size());
-  for (Eigen::Index k = 0; k < values.pole.size(); ++k) {
-    second_[k] = (values.phi.col(k).array().square() * weight.array()).sum();
-    second_conj_[k] = (values.phi_conj.col(k).array().square() * weight.array()).sum();
+PoleGrams pole_grams(const PoleValues& values, const Eigen::VectorXd& weight) {
+  const Eigen::Index n = values.pole.size();
+  // S and its derivative, of the poles and of their conjugates.
+  Eigen::VectorXcd first(2 * n), second(2 * n), pole(2 * n);
+  pole << values.pole, values.pole.conjugate();
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const auto phi = values.phi.col(k).array(), phi_conj = values.phi_conj.col(k).array();
+    first[k] = (phi * weight.array()).sum();
+    first[n + k] = (phi_conj * weight.array()).sum();
+    second[k] = (phi.square() * weight.array()).sum();
+    second[n + k] = (phi_conj.square() * weight.array()).sum();
   }
-}
-
-Complex PoleSums::pole_of(const Function& g) const {
-  return g.conjugate ? std::conj(values_.pole[g.pole]) : values_.pole[g.pole];
-}
-
-Complex PoleSums::sum(const Function& g, int order) const {
-  if (order == 1) return g.conjugate ? first_conj_[g.pole] : first_[g.pole];
-  return g.conjugate ? second_conj_[g.pole] : second_[g.pole];
-}
-
-Complex PoleSums::inner(const Function& a, const Function& b) const {
-  const Complex inverse = 1.0 / (pole_of(b) + std::conj(pole_of(a)));
-  const Complex zeroth = sum(b, 1) + std::conj(sum(a, 1));
-  if (a.order == 1 && b.order == 1) return -zeroth * inverse;
-  if (a.order == 1) return (-sum(b, 2) + zeroth * inverse) * inverse;
-  if (b.order == 1) return (-std::conj(sum(a, 2)) + zeroth * inverse) * inverse;
-  return (sum(b, 2) + std::conj(sum(a, 2)) - 2.0 * zeroth * inverse) * inverse * inverse;
+  const auto fill = [&](Eigen::Index row, Eigen::Index column, Eigen::MatrixXcd& gram) {
+    gram.resize(2 * n, 2 * n);
+    for (Eigen::Index j = 0; j < n; ++j) {
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const Eigen::Index a = row + i, b = column + j;
+        const Complex inverse = 1.0 / (pole[b] + std::conj(pole[a]));
+        const Complex zeroth = (first[b] + std::conj(first[a])) * inverse;
+        gram(2 * i, 2 * j) = -zeroth;
+        gram(2 * i, 2 * j + 1) = (zeroth - second[b]) * inverse;
+        gram(2 * i + 1, 2 * j) = (zeroth - std::conj(second[a])) * inverse;
+        gram(2 * i + 1, 2 * j + 1) = (second[b] + std::conj(second[a]) - 2.0 * zeroth) * inverse * inverse;
+      }
+    }
+  };
+  PoleGrams grams;
+  fill(0, 0, grams.same);
+  fill(n, n, grams.mirrored);
+  fill(0, n, grams.across);
+  return grams;
 }
 
 }  // namespace stablecut

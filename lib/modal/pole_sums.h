@@ -27,27 +27,14 @@ Eigen::Matrix<std::complex<double>, Eigen::Dynamic, 4> curve_sums(const Eigen::V
                                                                   const Eigen::VectorXd& weight,
                                                                   const Eigen::VectorXcd& h);
 
-/// Weighted inner products sum w conj(g_a) g_b over the lines, where g is phi or phi^2 (order 1 or 2) of a
-/// pole or of its conjugate.
-class PoleSums {
- public:
-  /// `weight` [lines], not negative. Order 2 needs `with_squares`.
-  PoleSums(const PoleValues& values, const Eigen::VectorXd& weight, bool with_squares);
-
-  struct Function {
-    Eigen::Index pole = 0;
-    bool conjugate = false;
-    int order = 1;
-  };
-  std::complex<double> inner(const Function& a, const Function& b) const;
-
- private:
-  std::complex<double> pole_of(const Function& g) const;
-  std::complex<double> sum(const Function& g, int order) const;
-
-  const PoleValues& values_;
-  Eigen::VectorXcd first_, first_conj_;    // S
-  Eigen::VectorXcd second_, second_conj_;  // dS/da
+/// Weighted inner products sum w conj(g_a) g_b over the lines, of functions g of the poles: phi of pole k is
+/// number 2 k, its square 2 k + 1; g' is the same function of the conjugate pole.
+struct PoleGrams {
+  Eigen::MatrixXcd same;      ///< [2 poles x 2 poles] sum w conj(g_a) g_b
+  Eigen::MatrixXcd mirrored;  ///< sum w conj(g'_a) g'_b
+  Eigen::MatrixXcd across;    ///< sum w conj(g_a) g'_b
 };
+/// `weight` [lines], not negative.
+PoleGrams pole_grams(const PoleValues& values, const Eigen::VectorXd& weight);
 
 }  // namespace stablecut

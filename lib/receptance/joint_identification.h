@@ -57,8 +57,8 @@ struct JointEstimate {
 ///
 /// An unknown noise is taken as the same on all lines, or as a share of the value where the residual says so.
 /// Residuals that hang together over lines (a model that does not fit) widen the deviations. Throws
-/// InvalidArgument for bounds that are not increasing or beyond kLeastBound and kLargestBound, and for fewer than
-/// kLeastJointLines lines, NoAnswer where no joint can be found.
+/// InvalidArgument for bounds that are not increasing or beyond kLeastBound and kLargestBound, and for fewer
+/// than kLeastJointLines lines, NoAnswer where no joint can be found.
 JointEstimate identify_joint(const JointData& data, const JointBounds& bounds, JointObjective objective);
 
 }  // namespace stablecut

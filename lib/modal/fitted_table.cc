@@ -1,0 +1,99 @@
+#include "modal/fitted_table.h"
+
+#include <complex>
+
+#include "modal/likelihood.h"
+
+namespace stablecut {
+namespace {
+
+using Complex = std::complex<double>;
+
+// Directions that responded in some curve, and directions in which a force was applied.
+struct Seen {
+  std::vector<bool> right, left;
+
+  explicit Seen(const FitData& data) : right(static_cast<std::size_t>(data.dofs)), left(right.size()) {
+    for (const Curve& curve : data.curves) {
+      right[static_cast<std::size_t>(curve.response)] = true;
+      left[static_cast<std::size_t>(curve.reference)] = true;
+    }
+  }
+  bool all() const {
+    return std::find(right.begin(), right.end(), false) == right.end() &&
+           std::find(left.begin(), left.end(), false) == left.end();
+  }
+};
+
+// The direction in which both is known and the mode largest, or -1.
+Eigen::Index known_direction(const Seen& seen, const Mode& mode) {
+  Eigen::Index best = -1;
+  double largest = 0;
+  for (std::size_t i = 0; i < seen.right.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    const double size = std::abs(mode.psi_r[at] * mode.psi_l[at]);
+    if (!seen.right[i] || !seen.left[i] || size <= largest) continue;
+    largest = size;
+    best = at;
+  }
+  return best;
+}
+
+// Completes the mode, and gives the slope of its coordinates by those before.
+Eigen::MatrixXd complete_by_reciprocity(const Seen& seen, const ModeParameters& parameters, Mode& mode) {
+  Eigen::MatrixXd slope =
+      Eigen::MatrixXd::Identity(parameters.coordinates_per_mode(), parameters.coordinates_per_mode());
+  const Eigen::Index known = known_direction(seen, mode);
+  const Complex ratio = known < 0 ? Complex(0) : mode.psi_l[known] / mode.psi_r[known];
+  // z -> f z as a real matrix.
+  const auto times = [](Complex f) {
+    return (Eigen::Matrix2d() << f.real(), -f.imag(), f.imag(), f.real()).finished();
+  };
+  for (Eigen::Index i = 0; i < mode.psi_r.size(); ++i) {
+    const bool right = seen.right[static_cast<std::size_t>(i)], left = seen.left[static_cast<std::size_t>(i)];
+    if (right && left) continue;
+    // value = source * factor, where the factor is the ratio or its inverse.
+    const Eigen::Index to = right ? parameters.left_at(i) : parameters.right_at(i);
+    const Eigen::Index from = right ? parameters.right_at(i) : parameters.left_at(i);
+    Complex& value = right ? mode.psi_l[i] : mode.psi_r[i];
+    const Complex source = right ? mode.psi_r[i] : mode.psi_l[i];
+    slope.middleRows<2>(to).setZero();
+    value = 0;
+    if (known < 0) continue;
+    const Complex factor = right ? ratio : 1.0 / ratio;
+    value = source * factor;
+    const double sign = right ? 1 : -1;
+    slope.block<2, 2>(to, from) = times(factor);
+    slope.block<2, 2>(to, parameters.left_at(known)) += times(sign * value / mode.psi_l[known]);
+    slope.block<2, 2>(to, parameters.right_at(known)) += times(-sign * value / mode.psi_r[known]);
+  }
+  return slope;
+}
+
+}  // namespace
+
+FittedTable fitted_table(const FitData& data, const std::vector<Mode>& modes, ModeModel model) {
+  FittedTable table;
+  if (modes.empty()) return table;
+  const ModeParameters parameters(modes, data.dofs, model);
+  const Eigen::VectorXd x = parameters.pack(modes);
+  const Seen seen(data);
+  table.by_reciprocity = !seen.all();
+  const Eigen::Index size = parameters.coordinates_per_mode();
+  Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(parameters.modes() * size, parameters.size());
+  const std::vector<Mode> fitted = parameters.unpack(x);
+  for (Eigen::Index k = 0; k < parameters.modes(); ++k) {
+    Mode mode = fitted[static_cast<std::size_t>(k)];
+    const Eigen::MatrixXd completion = complete_by_reciprocity(seen, parameters, mode);
+    slope.block(k * size, parameters.pole_at(k), size, parameters.per_mode()) =
+        normalisation_slope(mode) * completion * parameters.slope(x, k);
+    table.modes.push_back(normalised(mode));
+    table.modes.back().out_of_band = modes[static_cast<std::size_t>(k)].out_of_band;
+  }
+  // The weights are 1 / E|error|^2 of the complex value, so each part has half of that variance.
+  const Likelihood likelihood(data, parameters, out_of_band(data, modes));
+  table.covariance = slope * (inverse_of(likelihood.evaluate(x, true)) / 2) * slope.transpose();
+  return table;
+}
+
+}  // namespace stablecut

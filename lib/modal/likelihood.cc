@@ -1,0 +1,202 @@
+#include "modal/likelihood.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <complex>
+#include <utility>
+
+#include "modal/pole_sums.h"
+
+namespace stablecut {
+namespace {
+
+using Complex = std::complex<double>;
+
+// What holds for a mode outside the band when the data do not say: -Re / Im, and the deviations of the
+// logarithms.
+constexpr double kResidualDamping = 0.05;
+constexpr double kResidualDampingDeviation = 0.5;
+constexpr double kResidualPlaceDeviation = 1;
+// Of the diagonal, so that a mode without residue does not stop the factorization.
+constexpr double kRidge = 1e-13;
+
+// A complex coordinate of one curve: moving it by z changes the curve by z t g + conj(z t) g', where g is
+// function f of the poles (phi of pole k is 2 k, its square 2 k + 1) and g' the same of the conjugate pole.
+struct Direction {
+  Eigen::Index at;  // of its real part
+  Eigen::Index f;
+  Complex t;
+};
+
+// Adds one curve's gradient and matrix, in the coordinates of the table.
+class CurveSystem {
+ public:
+  CurveSystem(const ModeParameters& parameters, const PoleValues& values, const Curve& curve,
+              const std::vector<Mode>& modes, const Eigen::VectorXcd& residue)
+      : values_(values), curve_(curve) {
+    for (Eigen::Index k = 0; k < parameters.modes(); ++k) {
+      const Mode& mode = modes[static_cast<std::size_t>(k)];
+      const Eigen::Index first = k * parameters.coordinates_per_mode();
+      directions_.push_back({first, 2 * k + 1, residue[k]});
+      directions_.push_back(
+          {first + parameters.right_at(curve.response), 2 * k, mode.psi_l[curve.reference]});
+      directions_.push_back({first + parameters.left_at(curve.reference), 2 * k, mode.psi_r[curve.response]});
+    }
+  }
+
+  void add_gradient(const Eigen::VectorXcd& error, Eigen::VectorXd& gradient) const {
+    const Eigen::VectorXcd weighted = curve_.weight.cwiseProduct(error);
+    const Eigen::Index n = values_.pole.size();
+    Eigen::VectorXcd along(2 * n), mirrored(2 * n);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      along[2 * k] = values_.phi.col(k).dot(weighted);
+      mirrored[2 * k] = values_.phi_conj.col(k).dot(weighted);
+      along[2 * k + 1] = values_.phi.col(k).array().square().matrix().dot(weighted);
+      mirrored[2 * k + 1] = values_.phi_conj.col(k).array().square().matrix().dot(weighted);
+    }
+    for (const Direction& d : directions_) {
+      // Re(conj(t) T + t T'), and the same with i t.
+      const Complex own = std::conj(d.t) * along[d.f], mirror = d.t * mirrored[d.f];
+      gradient[d.at] += (own + mirror).real();
+      gradient[d.at + 1] += (own - mirror).imag();
+    }
+  }
+
+  // The columns of a direction are t g + conj(t) g' and the same with i t.
+  void add_matrix(Eigen::MatrixXd& matrix) const {
+    const PoleGrams grams = pole_grams(values_, curve_.weight);
+    for (std::size_t a = 0; a < directions_.size(); ++a) {
+      for (std::size_t b = a; b < directions_.size(); ++b) {
+        const Direction &p = directions_[a], &q = directions_[b];
+        const Complex same = std::conj(p.t) * q.t * grams.same(p.f, q.f);
+        const Complex both = p.t * std::conj(q.t) * grams.mirrored(p.f, q.f);
+        const Complex right = std::conj(p.t) * std::conj(q.t) * grams.across(p.f, q.f);
+        const Complex left = p.t * q.t * std::conj(grams.across(q.f, p.f));
+        // t -> i t multiplies t by i and conj(t) by -i.
+        const double re_re = (same + both + right + left).real(), im_im = (same + both - right - left).real(),
+                     re_im = (-same + both + right - left).imag(),
+                     im_re = (same - both + right - left).imag();
+        matrix(p.at, q.at) += re_re;
+        matrix(p.at, q.at + 1) += re_im;
+        matrix(p.at + 1, q.at) += im_re;
+        matrix(p.at + 1, q.at + 1) += im_im;
+        if (a == b) continue;
+        matrix(q.at, p.at) += re_re;
+        matrix(q.at + 1, p.at) += re_im;
+        matrix(q.at, p.at + 1) += im_re;
+        matrix(q.at + 1, p.at + 1) += im_im;
+      }
+    }
+  }
+
+ private:
+  const PoleValues& values_;
+  const Curve& curve_;
+  std::vector<Direction> directions_;
+};
+
+// From the coordinates of the table to the free parameters: the slopes are block diagonal.
+NormalEquations to_parameters(const ModeParameters& parameters, const Eigen::Ref<const Eigen::VectorXd>& x,
+                              const NormalEquations& coordinates) {
+  NormalEquations result{coordinates.chi_square, Eigen::VectorXd(parameters.size()),
+                         Eigen::MatrixXd(parameters.size(), parameters.size())};
+  const Eigen::Index from = parameters.coordinates_per_mode(), to = parameters.per_mode();
+  std::vector<Eigen::MatrixXd> slope;
+  for (Eigen::Index k = 0; k < parameters.modes(); ++k) slope.push_back(parameters.slope(x, k));
+  for (Eigen::Index k = 0; k < parameters.modes(); ++k) {
+    const Eigen::MatrixXd left = slope[static_cast<std::size_t>(k)].transpose();
+    result.gradient.segment(k * to, to) = left * coordinates.gradient.segment(k * from, from);
+    const Eigen::MatrixXd rows = left * coordinates.matrix.middleRows(k * from, from);
+    for (Eigen::Index j = 0; j < parameters.modes(); ++j) {
+      result.matrix.block(k * to, j * to, to, to) =
+          rows.middleCols(j * from, from) * slope[static_cast<std::size_t>(j)];
+    }
+  }
+  return result;
+}
+
+Eigen::LLT<Eigen::MatrixXd> factorized(const Eigen::MatrixXd& matrix) {
+  const double largest = matrix.diagonal().maxCoeff();
+  for (double ridge = kRidge;; ridge *= 100) {
+    Eigen::MatrixXd damped = matrix;
+    damped.diagonal() +=
+        ridge * (matrix.diagonal() + Eigen::VectorXd::Constant(matrix.rows(), 1e-6 * largest));
+    Eigen::LLT<Eigen::MatrixXd> factor(damped);
+    if (factor.info() == Eigen::Success || ridge > 1) return factor;
+  }
+}
+
+}  // namespace
+
+Likelihood::Likelihood(const FitData& data, const ModeParameters& parameters, std::vector<bool> out_of_band)
+    : data_(data), parameters_(parameters), out_of_band_(std::move(out_of_band)) {}
+
+NormalEquations Likelihood::evaluate(const Eigen::Ref<const Eigen::VectorXd>& x, bool with_matrix) const {
+  NormalEquations sums;
+  if (with_matrix) {
+    const Eigen::Index size = parameters_.modes() * parameters_.coordinates_per_mode();
+    sums.gradient = Eigen::VectorXd::Zero(size);
+    sums.matrix = Eigen::MatrixXd::Zero(size, size);
+  }
+  const std::vector<Mode> modes = parameters_.unpack(x);
+  Eigen::VectorXcd poles(parameters_.modes());
+  for (Eigen::Index k = 0; k < poles.size(); ++k) poles[k] = parameters_.pole(x, k);
+  const PoleValues values(data_.s, poles);
+  for (const Curve& curve : data_.curves) {
+    Eigen::VectorXcd residue(poles.size());
+    for (Eigen::Index k = 0; k < poles.size(); ++k) {
+      const Mode& mode = modes[static_cast<std::size_t>(k)];
+      residue[k] = mode.psi_r[curve.response] * mode.psi_l[curve.reference];
+    }
+    Eigen::VectorXcd error = values.phi * residue - curve.h;
+    error += values.phi_conj * residue.conjugate();
+    sums.chi_square += error.cwiseAbs2().dot(curve.weight);
+    if (!with_matrix) continue;
+    const CurveSystem system(parameters_, values, curve, modes, residue);
+    system.add_gradient(error, sums.gradient);
+    system.add_matrix(sums.matrix);
+  }
+  NormalEquations result = with_matrix ? to_parameters(parameters_, x, sums) : std::move(sums);
+  add_priors(x, with_matrix, result);
+  return result;
+}
+
+// Outside the band the data may not tell damping and distance: then a common damping and a place near the
+// band hold, so that the residual mode cannot chatter by itself. Where the data tell, they outweigh this.
+void Likelihood::add_priors(const Eigen::Ref<const Eigen::VectorXd>& x, bool with_matrix,
+                            NormalEquations& result) const {
+  const double lo = data_.s[0].imag(), hi = data_.s[data_.lines() - 1].imag();
+  const auto add = [&](Eigen::Index at, double expected, double deviation) {
+    const double off = (x[at] - expected) / deviation;
+    result.chi_square += off * off / 2;
+    if (!with_matrix) return;
+    result.gradient[at] += off / deviation / 2;
+    result.matrix(at, at) += 1 / (2 * deviation * deviation);
+  };
+  for (Eigen::Index k = 0; k < parameters_.modes(); ++k) {
+    if (!out_of_band_[static_cast<std::size_t>(k)]) continue;
+    const Eigen::Index at = parameters_.pole_at(k);
+    add(at, std::log(kResidualDamping), kResidualDampingDeviation);
+    const bool above = x[at + 1] > std::log(hi);
+    add(at + 1, above ? std::log(1.5 * hi) : std::log(std::max(lo / 1.5, 1e-3 * hi)),
+        kResidualPlaceDeviation);
+  }
+}
+
+std::vector<bool> out_of_band(const FitData& data, const std::vector<Mode>& modes) {
+  std::vector<bool> result;
+  for (const Mode& mode : modes) {
+    const double omega = mode.pole().imag();
+    result.push_back(omega < data.s[0].imag() || omega > data.s[data.lines() - 1].imag());
+  }
+  return result;
+}
+
+Eigen::MatrixXd inverse_of(const NormalEquations& normal) {
+  return factorized(normal.matrix)
+      .solve(Eigen::MatrixXd::Identity(normal.matrix.rows(), normal.matrix.rows()));
+}
+
+Eigen::MatrixXd upper_factor(const NormalEquations& normal) { return factorized(normal.matrix).matrixU(); }
+
+}  // namespace stablecut
