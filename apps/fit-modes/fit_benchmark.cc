@@ -1,5 +1,5 @@
-// How near fits come to the Cramer-Rao bound, how often they find the right number of modes, and how often their
-// 95 % intervals hold the truth: over seeds, without a variance in the data.
+// How near fits come to the Cramer-Rao bound, how often they find the right number of modes, and how often
+// their 95 % intervals hold the truth: over seeds, without a variance in the data.
 //
 //   fit_benchmark TABLE [SEEDS]     TABLE: the modal table of the 15-mode case
 #include <algorithm>
@@ -27,12 +27,13 @@ namespace {
 
 // Two close pairs and two heavily damped modes among others, with random vectors of equal static compliance.
 ModalModel hard_case(std::uint64_t seed) {
-  constexpr double kPoles[][2] = {{120, 0.01}, {121.8, 0.012}, {260, 0.12}, {430, 0.03},
-                                  {640, 0.008}, {648, 0.01},   {905, 0.2},  {1400, 0.02}};
+  constexpr double kPoles[][2] = {{120, 0.01},  {121.8, 0.012}, {260, 0.12}, {430, 0.03},
+                                  {640, 0.008}, {648, 0.01},    {905, 0.2},  {1400, 0.02}};
   std::mt19937_64 generator(seed);
   const auto normal = [&] {
     const double uniform = (static_cast<double>(generator() >> 11) + 0.5) * 0x1p-53;
-    return std::polar(std::sqrt(-std::log(uniform)), 6.283185307179586 * static_cast<double>(generator() >> 11) * 0x1p-53);
+    return std::polar(std::sqrt(-std::log(uniform)),
+                      6.283185307179586 * static_cast<double>(generator() >> 11) * 0x1p-53);
   };
   ModalModel model;
   model.dofs = {"x", "y"};
@@ -71,16 +72,17 @@ FitData exact_data(const ModalModel& truth, const Case& c, const FrequencyRespon
   data.dofs = 2;
   const FrequencyResponse exact = synthesize(truth, c.lines_hz);
   for (std::size_t e = 0; e < exact.entries.size(); ++e) {
-    data.curves.push_back({truth.dof(exact.entries[e].response), truth.dof(exact.entries[e].reference), exact.entries[e].h,
-                           noisy.entries[e].variance.cwiseInverse()});
+    data.curves.push_back({truth.dof(exact.entries[e].response), truth.dof(exact.entries[e].reference),
+                           exact.entries[e].h, noisy.entries[e].variance.cwiseInverse()});
   }
   return data;
 }
 
 Eigen::VectorXd parameters_of(const Mode& mode) {
   Eigen::VectorXd p(10);
-  p << mode.frequency_hz, mode.damping_ratio, mode.psi_r[0].real(), mode.psi_r[0].imag(), mode.psi_r[1].real(),
-      mode.psi_r[1].imag(), mode.psi_l[0].real(), mode.psi_l[0].imag(), mode.psi_l[1].real(), mode.psi_l[1].imag();
+  p << mode.frequency_hz, mode.damping_ratio, mode.psi_r[0].real(), mode.psi_r[0].imag(),
+      mode.psi_r[1].real(), mode.psi_r[1].imag(), mode.psi_l[0].real(), mode.psi_l[0].imag(),
+      mode.psi_l[1].real(), mode.psi_l[1].imag();
   return p;
 }
 
@@ -88,7 +90,8 @@ Outcome run(const Case& c, std::uint64_t seed) {
   const ModalModel truth = c.table != nullptr ? *c.table : hard_case(seed);
   FrequencyResponse measured = synthesize(truth, c.lines_hz);
   add_noise(measured, {c.relative_db, c.floor_db, seed});
-  const FittedTable bound = fitted_table(exact_data(truth, c, measured), truth.modes, ModeModel::kNonsymmetric);
+  const FittedTable bound =
+      fitted_table(exact_data(truth, c, measured), truth.modes, ModeModel::kNonsymmetric);
   for (auto& entry : measured.entries) entry.variance.resize(0);
   Outcome outcome;
   const auto start = std::chrono::steady_clock::now();
@@ -103,8 +106,10 @@ Outcome run(const Case& c, std::uint64_t seed) {
     const Complex lambda = mode.pole();
     // The pole's deviation, from those of frequency and damping, which hardly correlate.
     const auto at = static_cast<Eigen::Index>(10 * k);
-    const double pole_bound = std::abs(lambda) * std::sqrt(bound.covariance(at, at) / std::pow(mode.frequency_hz, 2) +
-                                                           bound.covariance(at + 1, at + 1) / (1 - std::pow(mode.damping_ratio, 2)));
+    const double pole_bound =
+        std::abs(lambda) *
+        std::sqrt(bound.covariance(at, at) / std::pow(mode.frequency_hz, 2) +
+                  bound.covariance(at + 1, at + 1) / (1 - std::pow(mode.damping_ratio, 2)));
     outcome.resolvable = outcome.resolvable && pole_bound < -lambda.real() / 5;
     std::size_t nearest = 0;
     double distance = 1e300;
@@ -144,7 +149,8 @@ int main(int argc, char** argv) {
                         {"8 modes, floor 30 dB below RMS", nullptr, hard_lines, {}, 30.0},
                         {"8 modes, noise 40 dB below |H|", nullptr, hard_lines, 40.0, {}}};
   std::printf("fit-modes over %zu seeds, no variance given\n", seeds);
-  std::printf("  %-34s %10s %10s %16s %9s %8s\n", "", "resolvable", "right", "worst RMS/bound", "inside", "s a fit");
+  std::printf("  %-34s %10s %10s %16s %9s %8s\n", "", "resolvable", "right", "worst RMS/bound", "inside",
+              "s a fit");
   std::size_t inside = 0, parameters = 0;
   for (const Case& c : cases) {
     std::vector<Outcome> outcomes(seeds);
@@ -159,14 +165,20 @@ int main(int argc, char** argv) {
       in += o.inside;
       of += o.parameters;
       seconds += o.seconds;
-      if (std::getenv("VERBOSE")) std::printf("    %zu: %zu of %zu%s\n", i + 1, o.modes, o.wanted, o.resolvable ? "" : " (not resolvable)");
+      if (std::getenv("VERBOSE"))
+        std::printf("    %zu: %zu of %zu%s\n", i + 1, o.modes, o.wanted,
+                    o.resolvable ? "" : " (not resolvable)");
       if (o.resolvable)
-      for (std::size_t k = 0; k < o.error.size(); ++k) square[static_cast<Eigen::Index>(k)] += o.error[k] * o.error[k];
+        for (std::size_t k = 0; k < o.error.size(); ++k)
+          square[static_cast<Eigen::Index>(k)] += o.error[k] * o.error[k];
     }
     Eigen::Index worst = 0;
-    const double rms = std::sqrt(square.maxCoeff(&worst) / static_cast<double>(std::max<std::size_t>(1, resolvable)));
-    std::printf("  %-34s %10zu %10zu %9.2f (%2ld) %8.1f%% %8.3f\n", c.name, resolvable, right, rms, static_cast<long>(worst + 1),
-                100.0 * static_cast<double>(in) / static_cast<double>(std::max<std::size_t>(1, of)), seconds / static_cast<double>(seeds));
+    const double rms =
+        std::sqrt(square.maxCoeff(&worst) / static_cast<double>(std::max<std::size_t>(1, resolvable)));
+    std::printf("  %-34s %10zu %10zu %9.2f (%2ld) %8.1f%% %8.3f\n", c.name, resolvable, right, rms,
+                static_cast<long>(worst + 1),
+                100.0 * static_cast<double>(in) / static_cast<double>(std::max<std::size_t>(1, of)),
+                seconds / static_cast<double>(seeds));
     std::fflush(stdout);
     inside += in;
     parameters += of;

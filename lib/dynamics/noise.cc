@@ -9,6 +9,7 @@ namespace stablecut {
 namespace {
 
 constexpr Eigen::Index kHalfWindow = 24;
+constexpr Eigen::Index kWindowStep = 8;  // lines that share a window's median
 // The square of a complex Gaussian is exponential: its median is log 2 times its mean.
 const double kMedianOfExponential = std::log(2.0);
 
@@ -20,7 +21,12 @@ Eigen::VectorXd windowed_mean(const Eigen::VectorXd& square) {
   Eigen::VectorXd mean(lines);
   std::vector<double> window;
   for (Eigen::Index i = 0; i < lines; ++i) {
-    const Eigen::Index centre = std::clamp<Eigen::Index>(i - 2, half, square.size() - 1 - half);
+    if (i % kWindowStep != 0) {
+      mean[i] = mean[i - 1];
+      continue;
+    }
+    const Eigen::Index centre =
+        std::clamp<Eigen::Index>(i - 2 + kWindowStep / 2, half, square.size() - 1 - half);
     window.assign(square.begin() + centre - half, square.begin() + centre + half + 1);
     const auto middle = window.begin() + half;
     std::nth_element(window.begin(), middle, window.end());

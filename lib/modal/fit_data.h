@@ -23,6 +23,8 @@ struct FitData {
   std::vector<Curve> curves;
 
   Eigen::Index lines() const { return s.size(); }
+  /// Mean distance between lines, rad/s.
+  double line_spacing() const { return (s[lines() - 1] - s[0]).imag() / static_cast<double>(lines() - 1); }
   /// Number of real values measured.
   double values() const { return 2.0 * static_cast<double>(lines()) * static_cast<double>(curves.size()); }
 };

@@ -28,72 +28,55 @@ struct Direction {
   Complex t;
 };
 
-// Adds one curve's gradient and matrix, in the coordinates of the table.
-class CurveSystem {
- public:
-  CurveSystem(const ModeParameters& parameters, const PoleValues& values, const Curve& curve,
-              const std::vector<Mode>& modes, const Eigen::VectorXcd& residue)
-      : values_(values), curve_(curve) {
-    for (Eigen::Index k = 0; k < parameters.modes(); ++k) {
-      const Mode& mode = modes[static_cast<std::size_t>(k)];
-      const Eigen::Index first = k * parameters.coordinates_per_mode();
-      directions_.push_back({first, 2 * k + 1, residue[k]});
-      directions_.push_back(
-          {first + parameters.right_at(curve.response), 2 * k, mode.psi_l[curve.reference]});
-      directions_.push_back({first + parameters.left_at(curve.reference), 2 * k, mode.psi_r[curve.response]});
+std::vector<Direction> curve_directions(const ModeParameters& parameters, const Curve& curve,
+                                        const std::vector<Mode>& modes, const Eigen::VectorXcd& residue) {
+  std::vector<Direction> directions;
+  for (Eigen::Index k = 0; k < parameters.modes(); ++k) {
+    const Mode& mode = modes[static_cast<std::size_t>(k)];
+    const Eigen::Index first = k * parameters.coordinates_per_mode();
+    directions.push_back({first, 2 * k + 1, residue[k]});
+    directions.push_back({first + parameters.right_at(curve.response), 2 * k, mode.psi_l[curve.reference]});
+    directions.push_back({first + parameters.left_at(curve.reference), 2 * k, mode.psi_r[curve.response]});
+  }
+  return directions;
+}
+
+void add_gradient(const std::vector<Direction>& directions, const CurveSums& sums,
+                  Eigen::VectorXd& gradient) {
+  const Eigen::Index n = sums.error.size() / 2;
+  for (const Direction& d : directions) {
+    const Eigen::VectorXcd& along = d.f % 2 == 0 ? sums.error : sums.error_squared;
+    // Re(conj(t) T + t T'), and the same with i t.
+    const Complex own = std::conj(d.t) * along[d.f / 2], mirror = d.t * along[n + d.f / 2];
+    gradient[d.at] += (own + mirror).real();
+    gradient[d.at + 1] += (own - mirror).imag();
+  }
+}
+
+// The columns of a direction are t g + conj(t) g' and the same with i t.
+void add_matrix(const std::vector<Direction>& directions, const PoleGrams& grams, Eigen::MatrixXd& matrix) {
+  for (std::size_t a = 0; a < directions.size(); ++a) {
+    for (std::size_t b = a; b < directions.size(); ++b) {
+      const Direction &p = directions[a], &q = directions[b];
+      const Complex same = std::conj(p.t) * q.t * grams.same(p.f, q.f);
+      const Complex both = p.t * std::conj(q.t) * grams.mirrored(p.f, q.f);
+      const Complex right = std::conj(p.t) * std::conj(q.t) * grams.across(p.f, q.f);
+      const Complex left = p.t * q.t * std::conj(grams.across(q.f, p.f));
+      // t -> i t multiplies t by i and conj(t) by -i.
+      const double re_re = (same + both + right + left).real(), im_im = (same + both - right - left).real(),
+                   re_im = (-same + both + right - left).imag(), im_re = (same - both + right - left).imag();
+      matrix(p.at, q.at) += re_re;
+      matrix(p.at, q.at + 1) += re_im;
+      matrix(p.at + 1, q.at) += im_re;
+      matrix(p.at + 1, q.at + 1) += im_im;
+      if (a == b) continue;
+      matrix(q.at, p.at) += re_re;
+      matrix(q.at + 1, p.at) += re_im;
+      matrix(q.at, p.at + 1) += im_re;
+      matrix(q.at + 1, p.at + 1) += im_im;
     }
   }
-
-  void add_gradient(const Eigen::VectorXcd& error, Eigen::VectorXd& gradient) const {
-    const Eigen::VectorXcd weighted = curve_.weight.cwiseProduct(error);
-    const Eigen::Index n = values_.pole.size();
-    Eigen::VectorXcd along(2 * n), mirrored(2 * n);
-    for (Eigen::Index k = 0; k < n; ++k) {
-      along[2 * k] = values_.phi.col(k).dot(weighted);
-      mirrored[2 * k] = values_.phi_conj.col(k).dot(weighted);
-      along[2 * k + 1] = values_.phi.col(k).array().square().matrix().dot(weighted);
-      mirrored[2 * k + 1] = values_.phi_conj.col(k).array().square().matrix().dot(weighted);
-    }
-    for (const Direction& d : directions_) {
-      // Re(conj(t) T + t T'), and the same with i t.
-      const Complex own = std::conj(d.t) * along[d.f], mirror = d.t * mirrored[d.f];
-      gradient[d.at] += (own + mirror).real();
-      gradient[d.at + 1] += (own - mirror).imag();
-    }
-  }
-
-  // The columns of a direction are t g + conj(t) g' and the same with i t.
-  void add_matrix(Eigen::MatrixXd& matrix) const {
-    const PoleGrams grams = pole_grams(values_, curve_.weight);
-    for (std::size_t a = 0; a < directions_.size(); ++a) {
-      for (std::size_t b = a; b < directions_.size(); ++b) {
-        const Direction &p = directions_[a], &q = directions_[b];
-        const Complex same = std::conj(p.t) * q.t * grams.same(p.f, q.f);
-        const Complex both = p.t * std::conj(q.t) * grams.mirrored(p.f, q.f);
-        const Complex right = std::conj(p.t) * std::conj(q.t) * grams.across(p.f, q.f);
-        const Complex left = p.t * q.t * std::conj(grams.across(q.f, p.f));
-        // t -> i t multiplies t by i and conj(t) by -i.
-        const double re_re = (same + both + right + left).real(), im_im = (same + both - right - left).real(),
-                     re_im = (-same + both + right - left).imag(),
-                     im_re = (same - both + right - left).imag();
-        matrix(p.at, q.at) += re_re;
-        matrix(p.at, q.at + 1) += re_im;
-        matrix(p.at + 1, q.at) += im_re;
-        matrix(p.at + 1, q.at + 1) += im_im;
-        if (a == b) continue;
-        matrix(q.at, p.at) += re_re;
-        matrix(q.at + 1, p.at) += re_im;
-        matrix(q.at, p.at + 1) += im_re;
-        matrix(q.at + 1, p.at + 1) += im_im;
-      }
-    }
-  }
-
- private:
-  const PoleValues& values_;
-  const Curve& curve_;
-  std::vector<Direction> directions_;
-};
+}
 
 // From the coordinates of the table to the free parameters: the slopes are block diagonal.
 NormalEquations to_parameters(const ModeParameters& parameters, const Eigen::Ref<const Eigen::VectorXd>& x,
@@ -129,7 +112,7 @@ Eigen::LLT<Eigen::MatrixXd> factorized(const Eigen::MatrixXd& matrix) {
 }  // namespace
 
 Likelihood::Likelihood(const FitData& data, const ModeParameters& parameters, std::vector<bool> out_of_band)
-    : data_(data), parameters_(parameters), out_of_band_(std::move(out_of_band)) {}
+    : data_(data), parameters_(parameters), residual_(data), out_of_band_(std::move(out_of_band)) {}
 
 NormalEquations Likelihood::evaluate(const Eigen::Ref<const Eigen::VectorXd>& x, bool with_matrix) const {
   NormalEquations sums;
@@ -141,20 +124,25 @@ NormalEquations Likelihood::evaluate(const Eigen::Ref<const Eigen::VectorXd>& x,
   const std::vector<Mode> modes = parameters_.unpack(x);
   Eigen::VectorXcd poles(parameters_.modes());
   for (Eigen::Index k = 0; k < poles.size(); ++k) poles[k] = parameters_.pole(x, k);
-  const PoleValues values(data_.s, poles);
-  for (const Curve& curve : data_.curves) {
-    Eigen::VectorXcd residue(poles.size());
+  Eigen::MatrixXcd residue(poles.size(), static_cast<Eigen::Index>(data_.curves.size()));
+  for (Eigen::Index c = 0; c < residue.cols(); ++c) {
+    const Curve& curve = data_.curves[static_cast<std::size_t>(c)];
     for (Eigen::Index k = 0; k < poles.size(); ++k) {
       const Mode& mode = modes[static_cast<std::size_t>(k)];
-      residue[k] = mode.psi_r[curve.response] * mode.psi_l[curve.reference];
+      residue(k, c) = mode.psi_r[curve.response] * mode.psi_l[curve.reference];
     }
-    Eigen::VectorXcd error = values.phi * residue - curve.h;
-    error += values.phi_conj * residue.conjugate();
-    sums.chi_square += error.cwiseAbs2().dot(curve.weight);
-    if (!with_matrix) continue;
-    const CurveSystem system(parameters_, values, curve, modes, residue);
-    system.add_gradient(error, sums.gradient);
-    system.add_matrix(sums.matrix);
+  }
+  std::vector<CurveSums> curve_sums;
+  sums.chi_square = residual_.evaluate(poles, residue, with_matrix ? &curve_sums : nullptr);
+  if (with_matrix) {
+    PoleGrams grams(poles);
+    for (std::size_t c = 0; c < curve_sums.size(); ++c) {
+      const std::vector<Direction> directions =
+          curve_directions(parameters_, data_.curves[c], modes, residue.col(static_cast<Eigen::Index>(c)));
+      grams.evaluate(curve_sums[c].weight, curve_sums[c].weight_squared);
+      add_gradient(directions, curve_sums[c], sums.gradient);
+      add_matrix(directions, grams, sums.matrix);
+    }
   }
   NormalEquations result = with_matrix ? to_parameters(parameters_, x, sums) : std::move(sums);
   add_priors(x, with_matrix, result);

@@ -5,6 +5,7 @@
 
 #include "modal/fit_data.h"
 #include "modal/mode_parameters.h"
+#include "modal/residual_sums.h"
 
 namespace stablecut {
 
@@ -31,6 +32,7 @@ class Likelihood {
 
   const FitData& data_;
   const ModeParameters& parameters_;
+  ResidualSums residual_;
   std::vector<bool> out_of_band_;
 };
 

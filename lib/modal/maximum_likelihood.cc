@@ -79,7 +79,7 @@ bool has_settled(const ceres::Solver::Summary& summary) {
 }  // namespace
 
 RefinedModes refine_modes(const FitData& data, const std::vector<Mode>& start, ModeModel model,
-                          int iterations) {
+                          const Effort& effort) {
   RefinedModes result;
   if (start.empty()) {
     result.chi_square = chi_square_of(data, start);
@@ -104,10 +104,11 @@ RefinedModes refine_modes(const FitData& data, const std::vector<Mode>& start, M
     bound(parameters.pole_at(k), kLeastRatio, kLargestRatio);
     bound(parameters.pole_at(k) + 1, kLeastRate * highest, kLargestRate * highest);
   }
+  const double complex_values = data.values() / 2;
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = iterations;
-  options.function_tolerance = 1e-9;
+  options.max_num_iterations = effort.iterations;
+  options.function_tolerance = effort.tolerance / complex_values;
   options.gradient_tolerance = 0;
   options.parameter_tolerance = 1e-13;
   options.max_num_line_search_step_size_iterations = 0;  // at bounds: a step is cut, or made shorter
@@ -127,11 +128,8 @@ RefinedModes refine_modes(const FitData& data, const std::vector<Mode>& start, M
 
 Eigen::VectorXcd curve_of(const std::vector<Mode>& modes, const Curve& curve, const Eigen::VectorXcd& s) {
   Eigen::VectorXcd h = Eigen::VectorXcd::Zero(s.size());
-  for (const Mode& mode : modes) {
-    const Complex residue = mode.psi_r[curve.response] * mode.psi_l[curve.reference];
-    const PoleValues values(s, Eigen::VectorXcd::Constant(1, mode.pole()));
-    h += residue * values.phi.col(0) + std::conj(residue) * values.phi_conj.col(0);
-  }
+  for (const Mode& mode : modes)
+    add_pole_pair(s, mode.pole(), mode.psi_r[curve.response] * mode.psi_l[curve.reference], h);
   return h;
 }
 

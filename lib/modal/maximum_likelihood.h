@@ -9,6 +9,12 @@
 
 namespace stablecut {
 
+/// When a refinement ends.
+struct Effort {
+  int iterations = 100;
+  double tolerance = 1e-5;  ///< change of chi_square, which is 1 for each value where only noise is left
+};
+
 struct RefinedModes {
   std::vector<Mode> modes;
   double chi_square = 0;  ///< sum over lines and curves of |model - h|^2 / variance
@@ -18,10 +24,10 @@ struct RefinedModes {
 };
 
 /// Minimises the weighted squared error of all curves at once over poles and vectors, from the given modes.
-/// Modes that start outside the band are held near it by a weak prior, which chi_square holds. At most
-/// `iterations` steps of Levenberg-Marquardt with analytic derivatives.
+/// Modes that start outside the band are held near it by a weak prior, which chi_square holds.
+/// Levenberg-Marquardt with analytic derivatives, until a step changes chi_square by less than the tolerance.
 RefinedModes refine_modes(const FitData& data, const std::vector<Mode>& start, ModeModel model,
-                          int iterations);
+                          const Effort& effort);
 
 /// The model on the data's lines for one curve.
 Eigen::VectorXcd curve_of(const std::vector<Mode>& modes, const Curve& curve, const Eigen::VectorXcd& s);

@@ -21,7 +21,7 @@ TEST_CASE("from a start nearby, exact data give the modes back") {
     start[k].psi_r[0] *= Complex(1, 0.1 * nudge);
     start[k].psi_l[1] *= Complex(1.1, -0.1);
   }
-  const RefinedModes refined = refine_modes(data, start, ModeModel::kNonsymmetric, 100);
+  const RefinedModes refined = refine_modes(data, start, ModeModel::kNonsymmetric, {100, 1e-14});
   CHECK(refined.converged);
   CHECK(refined.chi_square < 1e-12);
   for (std::size_t k = 0; k < start.size(); ++k) {

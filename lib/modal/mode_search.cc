@@ -1,13 +1,12 @@
 #include "modal/mode_search.h"
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
 #include "dynamics/noise.h"
+#include "modal/mode_candidates.h"
 #include "modal/vector_fitting.h"
 
 namespace stablecut {
@@ -16,14 +15,12 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr Eigen::Index kStartPairs = 30;
-constexpr int kRelocations = 12;
-constexpr int kRelocationsAfterPruning = 4;
-constexpr int kTrialSteps = 12;  // of a refinement that only has to tell whether a mode pays
-constexpr int kStartSteps = 24;  // of the first refinement, of many candidates
-constexpr int kFinalSteps = 60;
+constexpr int kRelocations = 8;
+constexpr int kRelocationsAfterPruning = 2;
+// Of refinements: the first, of many candidates; those that only have to tell whether a mode pays; between
+// changes of the weights; and the last.
+constexpr Effort kFirst{24, 0.1}, kRemoval{12, 0.1}, kAddition{24, 0.1}, kBetween{60, 0.01}, kLast{240, 1e-5};
 constexpr int kRescues = 3;
-constexpr double kOutsideMargin = 2;  // how far outside the band a mode is looked for
-constexpr double kReach = 60;         // half widths around a pole that say whether it is worth trying
 constexpr double kBeyondDoubt = 100;  // times the price
 // Weights never claim less noise than these shares of the value, and than a part of that of the curve's RMS.
 // Computed receptances have no noise at all, and rounding must not decide the number of modes; the coarse
@@ -42,46 +39,6 @@ constexpr double kLargerShare = 0.3;
 // A pole on a line and narrower than this many line spacings moves that line alone: a disturbed line, not a
 // mode.
 constexpr double kLeastHalfWidth = 0.02;
-
-// A residual curve in separate arrays, times its weights.
-struct WeightedResidual {
-  Eigen::ArrayXd weight, re, im;
-};
-
-// The pole 1 / (i w - lambda) plus and (times i) minus its mirror image, on the lines that it reaches.
-struct PoleShape {
-  Eigen::Index first, count;
-  Eigen::ArrayXd sum_re, sum_im, difference_re, difference_im;
-
-  PoleShape(const Eigen::ArrayXd& omega, Complex pole) {
-    const double alpha = pole.real(), beta = pole.imag(), reach = -kReach * alpha;
-    first = std::lower_bound(omega.begin(), omega.end(), beta - reach) - omega.begin();
-    count = std::upper_bound(omega.begin(), omega.end(), beta + reach) - omega.begin() - first;
-    const Eigen::ArrayXd below = omega.segment(first, count) - beta,
-                         above = omega.segment(first, count) + beta;
-    const Eigen::ArrayXd size = (alpha * alpha + below.square()).inverse();
-    const Eigen::ArrayXd mirrored = (alpha * alpha + above.square()).inverse();
-    sum_re = -alpha * (size + mirrored);
-    sum_im = -(below * size + above * mirrored);
-    difference_re = below * size - above * mirrored;
-    difference_im = -alpha * (size - mirrored);
-  }
-
-  // How much of the weighted residual the pole takes away, and its residue.
-  double gain(const WeightedResidual& residual, Complex& residue) const {
-    const auto weight = residual.weight.segment(first, count);
-    const auto re = residual.re.segment(first, count), im = residual.im.segment(first, count);
-    Eigen::Matrix2d gram;
-    gram(0, 0) = (weight * (sum_re.square() + sum_im.square())).sum();
-    gram(1, 1) = (weight * (difference_re.square() + difference_im.square())).sum();
-    gram(0, 1) = gram(1, 0) = (weight * (sum_re * difference_re + sum_im * difference_im)).sum();
-    const Eigen::Vector2d projection((sum_re * re + sum_im * im).sum(),
-                                     (difference_re * re + difference_im * im).sum());
-    const Eigen::Vector2d solution = gram.inverse() * projection;
-    residue = {solution[0], solution[1]};
-    return solution.allFinite() ? solution.dot(projection) : 0.0;
-  }
-};
 
 }  // namespace
 
@@ -120,7 +77,7 @@ void ModeSearch::run(const Progress& progress) {
     settle_noise();
     select();
   }
-  current_ = refined(current_.modes, 4 * kFinalSteps);
+  current_ = refined(current_.modes, kLast);
 }
 
 // A few modes may have been overlooked; if it is not that, there is no use in weighing modes against noise.
@@ -155,7 +112,7 @@ void ModeSearch::reweight() {
     variance_[e] = estimated_variance(model - curve.h, model.cwiseAbs());
   }
   set_weights();
-  current_ = refined(current_.modes, kFinalSteps);
+  current_ = refined(current_.modes, kBetween);
 }
 
 // The same once the modes are known, from all of the residual: the fewer the numbers that describe the noise,
@@ -169,18 +126,18 @@ void ModeSearch::settle_noise() {
     variance_[e] = correction * residual_variance(model - curve.h, model.cwiseAbs());
   }
   set_weights();
-  current_ = refined(current_.modes, kFinalSteps);
+  current_ = refined(current_.modes, kBetween);
 }
 
-RefinedModes ModeSearch::refined(const std::vector<Mode>& modes, int iterations) const {
-  return refine_modes(data_, modes, model_, iterations);
+RefinedModes ModeSearch::refined(const std::vector<Mode>& modes, const Effort& effort) const {
+  return refine_modes(data_, modes, model_, effort);
 }
 
 void ModeSearch::change_model(ModeModel model) {
   model_ = model;
-  current_ = refined(current_.modes, kFinalSteps);
+  current_ = refined(current_.modes, kBetween);
   remove_modes();
-  current_ = refined(current_.modes, 4 * kFinalSteps);
+  current_ = refined(current_.modes, kLast);
 }
 
 bool ModeSearch::exceeds_noise() const { return current_.chi_square / complex_values() > kModelErrorFactor; }
@@ -197,7 +154,7 @@ void ModeSearch::tighten() {
   const RefinedModes coarse = current_;
   const double coarse_floor = std::exchange(floor_, kFineFloor);
   set_weights();
-  current_ = refined(current_.modes, kFinalSteps);
+  current_ = refined(current_.modes, kBetween);
   if (estimate_noise_) reweight();
   select();
   if (!exceeds_noise()) return;
@@ -210,7 +167,7 @@ void ModeSearch::tighten() {
 void ModeSearch::build_up() {
   limited_by_model_ = true;
   set_weights();
-  current_ = refined({}, 0);
+  current_ = refined({}, kFirst);
   select();
 }
 
@@ -287,22 +244,9 @@ void ModeSearch::find_modes() {
   }
   const LinearResidues linear = linear_residues(data_, poles);
   std::vector<Mode> modes;
-  for (Eigen::Index k = 0; k < poles.size(); ++k) modes.push_back(rank_one(poles[k], linear.residue.row(k)));
-  current_ = refined(modes, kStartSteps);
-}
-
-// The mode whose residue is nearest to the curves' residues; a missing curve counts as zero.
-Mode ModeSearch::rank_one(Complex pole, const Eigen::RowVectorXcd& residue) const {
-  Eigen::MatrixXcd matrix = Eigen::MatrixXcd::Zero(data_.dofs, data_.dofs);
-  for (std::size_t e = 0; e < data_.curves.size(); ++e) {
-    matrix(data_.curves[e].response, data_.curves[e].reference) = residue[static_cast<Eigen::Index>(e)];
-  }
-  const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(matrix, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  Mode mode;
-  set_pole(mode, pole);
-  mode.psi_r = svd.matrixU().col(0);
-  mode.psi_l = svd.singularValues()[0] * svd.matrixV().col(0).conjugate();
-  return mode;
+  for (Eigen::Index k = 0; k < poles.size(); ++k)
+    modes.push_back(rank_one_mode(data_, poles[k], linear.residue.row(k)));
+  current_ = refined(modes, kFirst);
 }
 
 // ---- selection ----
@@ -339,27 +283,22 @@ bool ModeSearch::remove_if_worthless(std::size_t k) {
   if (!forced && loss(k) > kBeyondDoubt * price(current_)) return false;
   std::vector<Mode> fewer = current_.modes;
   fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
-  RefinedModes trial = refined(fewer, kTrialSteps);
+  RefinedModes trial = refined(fewer, kRemoval);
   if (!forced && trial.chi_square - current_.chi_square >= price(trial)) return false;
   current_ = std::move(trial);
   return true;
 }
 
-double ModeSearch::line_spacing() const {
-  return (data_.s[data_.lines() - 1] - data_.s[0]).imag() / static_cast<double>(data_.lines() - 1);
-}
-
 bool ModeSearch::is_too_narrow(const Mode& mode) const {
-  return -mode.pole().real() < kLeastHalfWidth * line_spacing();
+  return -mode.pole().real() < kLeastHalfWidth * data_.line_spacing();
 }
 
 // Tries a mode where the residual asks most for one. True when it pays.
 bool ModeSearch::add_mode() {
   if (wanted_modes_ && static_cast<int>(current_.modes.size()) >= *wanted_modes_) return false;
-  const Mode candidate = best_addition();
   std::vector<Mode> more = current_.modes;
-  more.push_back(candidate);
-  RefinedModes trial = refined(more, 2 * kTrialSteps);
+  more.push_back(best_addition(data_, current_.modes));
+  RefinedModes trial = refined(more, kAddition);
   const double least_gain = wanted_modes_ ? 0.0 : price(current_);
   if (!(current_.chi_square - trial.chi_square > least_gain)) return false;
   if (std::any_of(trial.modes.begin(), trial.modes.end(),
@@ -368,38 +307,6 @@ bool ModeSearch::add_mode() {
   }
   current_ = std::move(trial);
   return true;
-}
-
-Mode ModeSearch::best_addition() const {
-  const Eigen::ArrayXd lines = data_.s.imag();
-  std::vector<WeightedResidual> residual;
-  for (const Curve& curve : data_.curves) {
-    const Eigen::VectorXcd left = curve.h - curve_of(current_.modes, curve, data_.s);
-    residual.push_back({curve.weight.array(), curve.weight.array() * left.real().array(),
-                        curve.weight.array() * left.imag().array()});
-  }
-  const double hi = data_.s[data_.lines() - 1].imag();
-  const double spacing = line_spacing();
-  const double lo = std::max(data_.s[0].imag(), spacing);
-  double best_gain = -1;
-  Mode best;
-  for (const double zeta : {0.004, 0.02, 0.08, 0.3}) {
-    // Also a little outside the band, for a damping that residual modes have.
-    const double margin = zeta == 0.08 ? kOutsideMargin : 1;
-    for (double omega = lo / margin; omega <= hi * margin; omega += std::max(zeta * omega, spacing / 2)) {
-      const Complex pole = omega * Complex(-zeta, std::sqrt(1 - zeta * zeta));
-      const PoleShape shape(lines, pole);
-      Eigen::RowVectorXcd residue(static_cast<Eigen::Index>(data_.curves.size()));
-      double gain = 0;
-      for (std::size_t e = 0; e < residual.size(); ++e)
-        gain += shape.gain(residual[e], residue[static_cast<Eigen::Index>(e)]);
-      if (gain > best_gain) {
-        best_gain = gain;
-        best = rank_one(pole, residue);
-      }
-    }
-  }
-  return best;
 }
 
 }  // namespace stablecut

@@ -47,7 +47,7 @@ class ModeSearch {
   void set_weights();
   void reweight();
   void settle_noise();
-  RefinedModes refined(const std::vector<Mode>& modes, int iterations) const;
+  RefinedModes refined(const std::vector<Mode>& modes, const Effort& effort) const;
   double inflation_of(const RefinedModes& modes) const;
   bool exceeds_noise() const;
   bool floor_matters() const;
@@ -57,14 +57,11 @@ class ModeSearch {
   double price(const RefinedModes& without) const;
 
   void find_modes();
-  Mode rank_one(std::complex<double> pole, const Eigen::RowVectorXcd& residue) const;
   void select();
   void remove_modes();
   bool remove_if_worthless(std::size_t k);
   bool add_mode();
-  Mode best_addition() const;
   double loss(std::size_t k) const { return current_.removal_loss[static_cast<Eigen::Index>(k)]; }
-  double line_spacing() const;
   bool is_too_narrow(const Mode& mode) const;
 
   FitData data_;

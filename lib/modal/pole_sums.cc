@@ -18,6 +18,18 @@ STABLECUT_WIDE void pole_on_lines(const double* __restrict omega, Eigen::Index l
   }
 }
 
+// s and h as real and imaginary part in turn.
+STABLECUT_WIDE void add_pair(const double* __restrict s, Eigen::Index lines, double alpha, double beta,
+                             double re, double im, double* __restrict h) {
+  for (Eigen::Index i = 0; i < lines; ++i) {
+    const double below = s[2 * i + 1] - beta, above = s[2 * i + 1] + beta;
+    const double size = 1 / (alpha * alpha + below * below), mirrored = 1 / (alpha * alpha + above * above);
+    // (re + i im) (alpha - i below) size + (re - i im) (alpha - i above) mirrored.
+    h[2 * i] += size * (re * alpha + im * below) + mirrored * (re * alpha - im * above);
+    h[2 * i + 1] += size * (im * alpha - re * below) - mirrored * (im * alpha + re * above);
+  }
+}
+
 // Sums of phi w, phi w h, phi w conj(h), phi w |h|^2 as real and imaginary parts. `lines` is a multiple of
 // the lanes; the arrays hold w, Re w h, Im w h, w |h|^2.
 STABLECUT_WIDE void sums_over_lines(const double* omega, const double* w, const double* re, const double* im,
@@ -73,6 +85,11 @@ Eigen::Matrix<Complex, Eigen::Dynamic, 4> curve_sums(const Eigen::VectorXcd& s, 
   return sums;
 }
 
+void add_pole_pair(const Eigen::VectorXcd& s, Complex pole, Complex residue, Eigen::VectorXcd& h) {
+  add_pair(reinterpret_cast<const double*>(s.data()), s.size(), -pole.real(), pole.imag(), residue.real(),
+           residue.imag(), reinterpret_cast<double*>(h.data()));
+}
+
 PoleValues::PoleValues(const Eigen::VectorXcd& s, const Eigen::VectorXcd& poles)
     : pole(poles), phi(s.size(), poles.size()), phi_conj(s.size(), poles.size()) {
   const Eigen::VectorXd omega = s.imag();
@@ -86,37 +103,33 @@ PoleValues::PoleValues(const Eigen::VectorXcd& s, const Eigen::VectorXcd& poles)
   }
 }
 
-PoleGrams pole_grams(const PoleValues& values, const Eigen::VectorXd& weight) {
-  const Eigen::Index n = values.pole.size();
-  // S and its derivative, of the poles and of their conjugates.
-  Eigen::VectorXcd first(2 * n), second(2 * n), pole(2 * n);
-  pole << values.pole, values.pole.conjugate();
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const auto phi = values.phi.col(k).array(), phi_conj = values.phi_conj.col(k).array();
-    first[k] = (phi * weight.array()).sum();
-    first[n + k] = (phi_conj * weight.array()).sum();
-    second[k] = (phi.square() * weight.array()).sum();
-    second[n + k] = (phi_conj.square() * weight.array()).sum();
+PoleGrams::PoleGrams(const Eigen::VectorXcd& poles) : poles_(poles.size()), inverse_(2 * poles_, 2 * poles_) {
+  Eigen::VectorXcd pole(2 * poles_);
+  pole << poles, poles.conjugate();
+  for (Eigen::Index b = 0; b < 2 * poles_; ++b) {
+    for (Eigen::Index a = 0; a < 2 * poles_; ++a) inverse_(a, b) = 1.0 / (pole[b] + std::conj(pole[a]));
   }
+  same.resize(2 * poles_, 2 * poles_);
+  mirrored = across = same;
+}
+
+void PoleGrams::evaluate(const Eigen::VectorXcd& sum, const Eigen::VectorXcd& sum_squared) {
   const auto fill = [&](Eigen::Index row, Eigen::Index column, Eigen::MatrixXcd& gram) {
-    gram.resize(2 * n, 2 * n);
-    for (Eigen::Index j = 0; j < n; ++j) {
-      for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < poles_; ++j) {
+      for (Eigen::Index i = 0; i < poles_; ++i) {
         const Eigen::Index a = row + i, b = column + j;
-        const Complex inverse = 1.0 / (pole[b] + std::conj(pole[a]));
-        const Complex zeroth = (first[b] + std::conj(first[a])) * inverse;
+        const Complex inverse = inverse_(a, b), of_b = sum_squared[b], of_a = std::conj(sum_squared[a]);
+        const Complex zeroth = (sum[b] + std::conj(sum[a])) * inverse;
         gram(2 * i, 2 * j) = -zeroth;
-        gram(2 * i, 2 * j + 1) = (zeroth - second[b]) * inverse;
-        gram(2 * i + 1, 2 * j) = (zeroth - std::conj(second[a])) * inverse;
-        gram(2 * i + 1, 2 * j + 1) = (second[b] + std::conj(second[a]) - 2.0 * zeroth) * inverse * inverse;
+        gram(2 * i, 2 * j + 1) = (zeroth - of_b) * inverse;
+        gram(2 * i + 1, 2 * j) = (zeroth - of_a) * inverse;
+        gram(2 * i + 1, 2 * j + 1) = (of_b + of_a - 2.0 * zeroth) * inverse * inverse;
       }
     }
   };
-  PoleGrams grams;
-  fill(0, 0, grams.same);
-  fill(n, n, grams.mirrored);
-  fill(0, n, grams.across);
-  return grams;
+  fill(0, 0, same);
+  fill(poles_, poles_, mirrored);
+  fill(0, poles_, across);
 }
 
 }  // namespace stablecut

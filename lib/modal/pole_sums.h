@@ -20,6 +20,10 @@ struct PoleValues {
   Eigen::MatrixXcd phi_conj;  ///< [lines x poles], of the conjugate poles
 };
 
+/// Adds residue / (s - pole) + conj(residue) / (s - conj pole) on the lines s = i omega to h.
+void add_pole_pair(const Eigen::VectorXcd& s, std::complex<double> pole, std::complex<double> residue,
+                   Eigen::VectorXcd& h);
+
 /// Sums over the lines of phi times w, w h, w conj(h) and w |h|^2 (columns), for all poles and then for their
 /// conjugates: [2 poles x 4]. In one pass, without forming phi.
 Eigen::Matrix<std::complex<double>, Eigen::Dynamic, 4> curve_sums(const Eigen::VectorXcd& s,
@@ -29,12 +33,21 @@ Eigen::Matrix<std::complex<double>, Eigen::Dynamic, 4> curve_sums(const Eigen::V
 
 /// Weighted inner products sum w conj(g_a) g_b over the lines, of functions g of the poles: phi of pole k is
 /// number 2 k, its square 2 k + 1; g' is the same function of the conjugate pole.
-struct PoleGrams {
+class PoleGrams {
+ public:
+  explicit PoleGrams(const Eigen::VectorXcd& poles);
+
+  /// From the sums of w phi and of w phi^2 over the lines, for all poles and then for their conjugates, with
+  /// weights w not negative.
+  void evaluate(const Eigen::VectorXcd& sum, const Eigen::VectorXcd& sum_squared);
+
   Eigen::MatrixXcd same;      ///< [2 poles x 2 poles] sum w conj(g_a) g_b
   Eigen::MatrixXcd mirrored;  ///< sum w conj(g'_a) g'_b
   Eigen::MatrixXcd across;    ///< sum w conj(g_a) g'_b
+
+ private:
+  Eigen::Index poles_;
+  Eigen::MatrixXcd inverse_;  // 1 / (b + conj a), of poles and conjugate poles
 };
-/// `weight` [lines], not negative.
-PoleGrams pole_grams(const PoleValues& values, const Eigen::VectorXd& weight);
 
 }  // namespace stablecut

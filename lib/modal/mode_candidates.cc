@@ -1,0 +1,118 @@
+#include "modal/mode_candidates.h"
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "base/wide.h"
+#include "modal/maximum_likelihood.h"
+
+namespace stablecut {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double kDampings[] = {0.004, 0.02, 0.08, 0.3};
+constexpr double kOutsideDamping = 0.08;  // of what is tried outside the band, as residual modes have
+constexpr double kOutsideMargin = 2;      // how far outside
+constexpr double kReach = 60;             // half widths around a pole that say whether it is worth trying
+
+// The residual of a curve times its weight, in separate arrays, whole lanes long.
+struct WeightedResidual {
+  Eigen::ArrayXd weight, re, im;
+};
+
+// Gram matrix and projection of the two real parts of a residue at the pole -alpha + i beta, on lines of
+// which omega is given: the sum of the pole and its mirror image, and i times their difference.
+struct PairSums {
+  double own_own, own_other, other_other, own_residual, other_residual;
+};
+
+STABLECUT_WIDE PairSums pair_sums(const double* omega, const double* weight, const double* re,
+                                  const double* im, Eigen::Index lines, double alpha, double beta) {
+  Lanes aa{}, ab{}, bb{}, ar{}, br{};
+  for (Eigen::Index i = 0; i < lines; i += kLanes) {
+    const Lanes line = load_lanes(omega + i), below = line - beta, above = line + beta;
+    const Lanes size = 1 / (alpha * alpha + below * below), mirrored = 1 / (alpha * alpha + above * above);
+    const Lanes a_re = alpha * (size + mirrored), a_im = -(below * size + above * mirrored);
+    const Lanes b_re = below * size - above * mirrored, b_im = alpha * (size - mirrored);
+    const Lanes w = load_lanes(weight + i), x = load_lanes(re + i), y = load_lanes(im + i);
+    aa += w * (a_re * a_re + a_im * a_im);
+    ab += w * (a_re * b_re + a_im * b_im);
+    bb += w * (b_re * b_re + b_im * b_im);
+    ar += a_re * x + a_im * y;
+    br += b_re * x + b_im * y;
+  }
+  return {sum_of(aa), sum_of(ab), sum_of(bb), sum_of(ar), sum_of(br)};
+}
+
+}  // namespace
+
+Mode rank_one_mode(const FitData& data, Complex pole, const Eigen::RowVectorXcd& residue) {
+  Eigen::MatrixXcd matrix = Eigen::MatrixXcd::Zero(data.dofs, data.dofs);
+  for (std::size_t e = 0; e < data.curves.size(); ++e)
+    matrix(data.curves[e].response, data.curves[e].reference) = residue[static_cast<Eigen::Index>(e)];
+  const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(matrix, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  Mode mode;
+  set_pole(mode, pole);
+  mode.psi_r = svd.matrixU().col(0);
+  mode.psi_l = svd.singularValues()[0] * svd.matrixV().col(0).conjugate();
+  return mode;
+}
+
+Mode best_addition(const FitData& data, const std::vector<Mode>& modes) {
+  // Filled up with lines far away that have no weight.
+  const Eigen::Index lines = (data.lines() + kLanes - 1) / kLanes * kLanes;
+  const double lowest = data.s[0].imag(), highest = data.s[data.lines() - 1].imag();
+  Eigen::ArrayXd omega = Eigen::ArrayXd::Constant(lines, highest);
+  omega.head(data.lines()) = data.s.imag();
+  std::vector<WeightedResidual> residual;
+  for (const Curve& curve : data.curves) {
+    const Eigen::VectorXcd left = curve.h - curve_of(modes, curve, data.s);
+    WeightedResidual weighted;
+    weighted.weight = weighted.re = weighted.im = Eigen::ArrayXd::Zero(lines);
+    weighted.weight.head(data.lines()) = curve.weight;
+    weighted.re.head(data.lines()) = curve.weight.array() * left.real().array();
+    weighted.im.head(data.lines()) = curve.weight.array() * left.imag().array();
+    residual.push_back(std::move(weighted));
+  }
+  const double spacing = data.line_spacing();
+  double best_gain = -1;
+  Mode best;
+  for (const double zeta : kDampings) {
+    const double margin = zeta == kOutsideDamping ? kOutsideMargin : 1;
+    for (double rate = std::max(lowest, spacing) / margin; rate <= highest * margin;
+         rate += std::max(zeta * rate, spacing / 2)) {
+      const Complex pole = rate * Complex(-zeta, std::sqrt(1 - zeta * zeta));
+      // The lines it reaches, as whole lanes.
+      const double reach = -kReach * pole.real();
+      const Eigen::Index first =
+          (std::lower_bound(omega.begin(), omega.end(), pole.imag() - reach) - omega.begin()) / kLanes *
+          kLanes;
+      const Eigen::Index last =
+          std::upper_bound(omega.begin(), omega.end(), pole.imag() + reach) - omega.begin();
+      const Eigen::Index count = (last - first + kLanes - 1) / kLanes * kLanes;
+      if (count <= 0) continue;
+      Eigen::RowVectorXcd residue(static_cast<Eigen::Index>(residual.size()));
+      double gain = 0;
+      for (std::size_t e = 0; e < residual.size(); ++e) {
+        const PairSums sums = pair_sums(&omega[first], &residual[e].weight[first], &residual[e].re[first],
+                                        &residual[e].im[first], count, -pole.real(), pole.imag());
+        const Eigen::Matrix2d gram =
+            (Eigen::Matrix2d() << sums.own_own, sums.own_other, sums.own_other, sums.other_other).finished();
+        const Eigen::Vector2d projection(sums.own_residual, sums.other_residual);
+        const Eigen::Vector2d parts = gram.inverse() * projection;
+        residue[static_cast<Eigen::Index>(e)] = {parts[0], parts[1]};
+        if (parts.allFinite()) gain += parts.dot(projection);
+      }
+      if (gain > best_gain && residue.allFinite()) {
+        best_gain = gain;
+        best = rank_one_mode(data, pole, residue);
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace stablecut
