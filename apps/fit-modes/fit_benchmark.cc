@@ -19,6 +19,7 @@
 #include "modal/fit.h"
 #include "modal/fit_data.h"
 #include "modal/fitted_table.h"
+#include "modal/maximum_likelihood.h"
 
 using namespace stablecut;
 using Complex = std::complex<double>;
@@ -98,6 +99,19 @@ Outcome run(const Case& c, std::uint64_t seed) {
   const ModalFit fit = fit_modes(measured);
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   outcome.modes = fit.model.modes.size();
+  if (std::getenv("DUMP") && outcome.modes != truth.modes.size()) {
+    FitData data = exact_data(truth, c, measured);
+    FrequencyResponse again = synthesize(truth, c.lines_hz);
+    add_noise(again, {c.relative_db, c.floor_db, seed});
+    for (std::size_t e = 0; e < 4; ++e) { data.curves[e].h = again.entries[e].h; data.curves[e].weight = again.entries[e].variance.cwiseInverse(); }
+    const auto best = refine_modes(data, truth.modes, ModeModel::kNonsymmetric, {200, 1e-5});
+    const auto found = refine_modes(data, fit.model.modes, ModeModel::kNonsymmetric, {200, 1e-5});
+    std::printf("  seed %zu: chi2 true %.1f, found %.1f; missing:", (std::size_t)seed, best.chi_square, found.chi_square);
+    std::vector<int> used(truth.modes.size());
+    for (const auto& m : fit.model.modes) { std::size_t b = 0; for (std::size_t k = 0; k < truth.modes.size(); ++k) if (std::abs(truth.modes[k].frequency_hz-m.frequency_hz) < std::abs(truth.modes[b].frequency_hz-m.frequency_hz)) b = k; used[b]++; std::printf(" %.1f/%.3f", m.frequency_hz, m.damping_ratio);}
+    for (std::size_t k = 0; k < truth.modes.size(); ++k) if (!used[k]) std::printf(" [-%g loss %.0f]", truth.modes[k].frequency_hz, best.removal_loss[k]);
+    std::printf("\n");
+  }
   outcome.wanted = truth.modes.size();
   outcome.resolvable = true;
   std::vector<bool> taken(fit.model.modes.size());
@@ -153,6 +167,7 @@ int main(int argc, char** argv) {
               "s a fit");
   std::size_t inside = 0, parameters = 0;
   for (const Case& c : cases) {
+    if (std::getenv("ONLY") && std::atoi(std::getenv("ONLY")) != &c - cases) continue;
     std::vector<Outcome> outcomes(seeds);
     parallel_for(seeds, 2, [&](std::size_t i) { outcomes[i] = run(c, i + 1); }, {});
     std::size_t resolvable = 0, right = 0, in = 0, of = 0;

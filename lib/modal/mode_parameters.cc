@@ -21,8 +21,13 @@ ModeParameters::ModeParameters(const std::vector<Mode>& modes, Eigen::Index dofs
     : dofs_(dofs), model_(model) {
   for (const Mode& mode : modes) {
     Eigen::Index pivot = 0;
-    mode.psi_r.cwiseAbs().maxCoeff(&pivot);
+    const double largest = mode.psi_r.cwiseAbs().maxCoeff(&pivot);
     pivot_.push_back(pivot);
+    const double residue = largest * mode.psi_l.norm();
+    double unit = residue;  // of psi_l when psi_r's pivot is 1
+    if (model == ModeModel::kSymmetric) unit = std::sqrt(residue);
+    if (model == ModeModel::kProportional) unit = std::sqrt(residue * mode.pole().imag());
+    unit_.push_back(unit > 0 ? unit : 1);
   }
 }
 
@@ -51,6 +56,7 @@ Eigen::VectorXd ModeParameters::pack(const std::vector<Mode>& modes) const {
   for (Eigen::Index k = 0; k < this->modes(); ++k) {
     const Mode& mode = modes[static_cast<std::size_t>(k)];
     const Complex lambda = mode.pole();
+    const double unit = unit_[static_cast<std::size_t>(k)];
     x[pole_at(k)] = std::log(-lambda.real() / lambda.imag());
     x[pole_at(k) + 1] = std::log(lambda.imag());
     const Eigen::Index first = vectors_at(k);
@@ -59,7 +65,7 @@ Eigen::VectorXd ModeParameters::pack(const std::vector<Mode>& modes) const {
       const Complex scale = mode.psi_r[pivot];
       for (Eigen::Index i = 0; i < dofs_; ++i) {
         if (i != pivot) put(first + right_offset(k, i), mode.psi_r[i] / scale);
-        put(first + 2 * (dofs_ - 1) + 2 * i, mode.psi_l[i] * scale);
+        put(first + 2 * (dofs_ - 1) + 2 * i, mode.psi_l[i] * scale / unit);
       }
       continue;
     }
@@ -68,10 +74,10 @@ Eigen::VectorXd ModeParameters::pack(const std::vector<Mode>& modes) const {
     psi.cwiseAbs().maxCoeff(&largest);
     for (Eigen::Index i = 0; i < dofs_; ++i) {
       if (model_ == ModeModel::kSymmetric) {
-        put(first + 2 * i, psi[i]);
+        put(first + 2 * i, psi[i] / unit);
       } else {
         const double sign = (psi[i] * std::conj(psi[largest])).real() < 0 ? -1 : 1;
-        x[first + i] = sign * std::abs(psi[i]) * std::sqrt(lambda.imag());
+        x[first + i] = sign * std::abs(psi[i]) * std::sqrt(lambda.imag()) / unit;
       }
     }
   }
@@ -86,18 +92,19 @@ std::vector<Mode> ModeParameters::unpack(const Eigen::Ref<const Eigen::VectorXd>
     mode.psi_r = Eigen::VectorXcd::Ones(dofs_);
     mode.psi_l.resize(dofs_);
     const Eigen::Index first = vectors_at(k);
+    const double unit = unit_[static_cast<std::size_t>(k)];
     for (Eigen::Index i = 0; i < dofs_; ++i) {
       const auto complex_at = [&](Eigen::Index at) { return Complex(x[first + at], x[first + at + 1]); };
       switch (model_) {
         case ModeModel::kNonsymmetric:
           if (i != pivot_[static_cast<std::size_t>(k)]) mode.psi_r[i] = complex_at(right_offset(k, i));
-          mode.psi_l[i] = complex_at(2 * (dofs_ - 1) + 2 * i);
+          mode.psi_l[i] = unit * complex_at(2 * (dofs_ - 1) + 2 * i);
           break;
         case ModeModel::kSymmetric:
-          mode.psi_r[i] = mode.psi_l[i] = complex_at(2 * i);
+          mode.psi_r[i] = mode.psi_l[i] = unit * complex_at(2 * i);
           break;
         case ModeModel::kProportional:
-          mode.psi_r[i] = mode.psi_l[i] = kPhase * x[first + i] * std::exp(-x[pole_at(k) + 1] / 2);
+          mode.psi_r[i] = mode.psi_l[i] = kPhase * unit * x[first + i] * std::exp(-x[pole_at(k) + 1] / 2);
       }
     }
   }
@@ -111,6 +118,8 @@ Complex ModeParameters::pole(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::
 Eigen::MatrixXd ModeParameters::slope(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Index k) const {
   Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(coordinates_per_mode(), per_mode());
   const Complex lambda = pole(x, k);
+  const double unit = unit_[static_cast<std::size_t>(k)];
+  const Eigen::Matrix2d units = unit * Eigen::Matrix2d::Identity();
   slope.topLeftCorner<2, 2>() << lambda.real(), lambda.real(), 0, lambda.imag();
   const auto put = [&](Eigen::Index row, Eigen::Index column, Complex value) {
     slope(row, column) = value.real();
@@ -121,17 +130,17 @@ Eigen::MatrixXd ModeParameters::slope(const Eigen::Ref<const Eigen::VectorXd>& x
       case ModeModel::kNonsymmetric:
         if (i != pivot_[static_cast<std::size_t>(k)])
           slope.block<2, 2>(right_at(i), 2 + right_offset(k, i)).setIdentity();
-        slope.block<2, 2>(left_at(i), 2 * dofs_ + 2 * i).setIdentity();
+        slope.block<2, 2>(left_at(i), 2 * dofs_ + 2 * i) = units;
         break;
       case ModeModel::kSymmetric:
-        slope.block<2, 2>(right_at(i), 2 + 2 * i).setIdentity();
-        slope.block<2, 2>(left_at(i), 2 + 2 * i).setIdentity();
+        slope.block<2, 2>(right_at(i), 2 + 2 * i) = units;
+        slope.block<2, 2>(left_at(i), 2 + 2 * i) = units;
         break;
       case ModeModel::kProportional: {
-        const Complex unit = kPhase * std::exp(-x[pole_at(k) + 1] / 2);
+        const Complex turned = kPhase * unit * std::exp(-x[pole_at(k) + 1] / 2);
         for (const Eigen::Index row : {right_at(i), left_at(i)}) {
-          put(row, 2 + i, unit);
-          put(row, 1, -unit * x[vectors_at(k) + i] / 2.0);
+          put(row, 2 + i, turned);
+          put(row, 1, -turned * x[vectors_at(k) + i] / 2.0);
         }
       }
     }

@@ -18,11 +18,12 @@ enum class ModeModel {
 
 /// Two sets of coordinates. The free parameters x, all modes in turn: log(-Re lambda / Im lambda), log(Im
 /// lambda), then for kNonsymmetric Re and Im of psi_r without its pivot (which stays 1) and of psi_l; for
-/// kSymmetric of psi; for kProportional phi / sqrt(2). And the coordinates of a table, with the free scale of
-/// a mode among them: Re lambda, Im lambda, then Re and Im of each component of psi_r, then of psi_l.
+/// kSymmetric of psi; for kProportional phi / sqrt(2); psi_l, psi and phi in units of their size at the
+/// start, so that all parameters are about 1. And the coordinates of a table, with the free scale of a mode
+/// among them: Re lambda, Im lambda, then Re and Im of each component of psi_r, then of psi_l.
 class ModeParameters {
  public:
-  /// For modes like these (the pivots are theirs), each with `dofs` directions.
+  /// For modes like these (pivots and units are theirs), each with `dofs` directions.
   ModeParameters(const std::vector<Mode>& modes, Eigen::Index dofs, ModeModel model);
 
   Eigen::Index modes() const { return static_cast<Eigen::Index>(pivot_.size()); }
@@ -58,6 +59,7 @@ class ModeParameters {
   Eigen::Index dofs_;
   ModeModel model_;
   std::vector<Eigen::Index> pivot_;
+  std::vector<double> unit_;
 };
 
 }  // namespace stablecut

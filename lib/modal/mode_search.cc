@@ -208,14 +208,15 @@ double ModeSearch::inflation_of(const RefinedModes& modes) const {
 }
 
 // Chi-square that a mode must take away: half its real parameters times the log of the number of values
-// (Schwarz), of what the residual tells.
-double ModeSearch::price(const RefinedModes& without) const {
+// (Schwarz), of what the residual with the mode tells: one that is not made of modes prices all of them
+// higher.
+double ModeSearch::price(const RefinedModes& with, const RefinedModes& without) const {
   const double information = (parameters_per_mode() / 2) * std::log(data_.values());
   if (limited_by_model_) {
     const double share = relative_error(without.modes) > kModelErrorFloor ? kLesserShare : kLargerShare;
     return std::max(information, share * without.chi_square);
   }
-  return information * inflation_of(without);
+  return information * inflation_of(with);
 }
 
 // ---- candidates ----
@@ -280,11 +281,11 @@ void ModeSearch::remove_modes() {
 bool ModeSearch::remove_if_worthless(std::size_t k) {
   // The second-order loss is a good guess: no trial where it says that the mode matters beyond doubt.
   const bool forced = wanted_modes_.has_value() || is_too_narrow(current_.modes[k]);
-  if (!forced && loss(k) > kBeyondDoubt * price(current_)) return false;
+  if (!forced && loss(k) > kBeyondDoubt * price(current_, current_)) return false;
   std::vector<Mode> fewer = current_.modes;
   fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
   RefinedModes trial = refined(fewer, kRemoval);
-  if (!forced && trial.chi_square - current_.chi_square >= price(trial)) return false;
+  if (!forced && trial.chi_square - current_.chi_square >= price(current_, trial)) return false;
   current_ = std::move(trial);
   return true;
 }
@@ -299,7 +300,7 @@ bool ModeSearch::add_mode() {
   std::vector<Mode> more = current_.modes;
   more.push_back(best_addition(data_, current_.modes));
   RefinedModes trial = refined(more, kAddition);
-  const double least_gain = wanted_modes_ ? 0.0 : price(current_);
+  const double least_gain = wanted_modes_ ? 0.0 : price(trial, current_);
   if (!(current_.chi_square - trial.chi_square > least_gain)) return false;
   if (std::any_of(trial.modes.begin(), trial.modes.end(),
                   [&](const Mode& mode) { return is_too_narrow(mode); })) {

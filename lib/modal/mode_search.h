@@ -54,7 +54,7 @@ class ModeSearch {
   void tighten();
   void build_up();
   double relative_error(const std::vector<Mode>& modes) const;
-  double price(const RefinedModes& without) const;
+  double price(const RefinedModes& with, const RefinedModes& without) const;
 
   void find_modes();
   void select();
