@@ -96,15 +96,15 @@ Eigen::VectorXd estimated_variance(const Eigen::VectorXcd& values, const Eigen::
              : plain;
 }
 
-Eigen::VectorXd residual_variance(const Eigen::VectorXcd& residual, const Eigen::VectorXd& size) {
+ResidualNoise residual_noise(const Eigen::VectorXcd& residual, const Eigen::VectorXd& size) {
   const Eigen::VectorXd square = residual.cwiseAbs2();
-  const Eigen::VectorXd smooth = floor_and_share(square, size.cwiseAbs2());
-  const Eigen::VectorXd local = running_mean(square);
+  ResidualNoise noise{floor_and_share(square, size.cwiseAbs2()), running_mean(square)};
   // Schwarz: each window is a parameter more.
   const auto lines = static_cast<double>(square.size());
   const double windows = lines / static_cast<double>(2 * kHalfWindow + 1);
-  return likelihood(square, local) - likelihood(square, smooth) > windows * std::log(lines) / 2 ? local
-                                                                                                : smooth;
+  noise.is_local =
+      likelihood(square, noise.local) - likelihood(square, noise.smooth) > windows * std::log(lines) / 2;
+  return noise;
 }
 
 double correlation_length(const Eigen::VectorXcd& residual) {

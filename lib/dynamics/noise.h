@@ -12,10 +12,13 @@ namespace stablecut {
 /// [lines]; zero for a curve without noise.
 Eigen::VectorXd estimated_variance(const Eigen::VectorXcd& values, const Eigen::VectorXd& size);
 
-/// Variance on each line of a white residual, from all of it: a floor plus a share of the signal's `size`
-/// squared, fitted by maximum likelihood, or where that is clearly less likely than what is seen locally, a
-/// running mean. [lines]
-Eigen::VectorXd residual_variance(const Eigen::VectorXcd& residual, const Eigen::VectorXd& size);
+/// Variance on each line of a white residual, from all of it.
+struct ResidualNoise {
+  Eigen::VectorXd smooth;  ///< [lines] a floor plus a share of the signal's size squared, the likeliest
+  Eigen::VectorXd local;   ///< [lines] running mean
+  bool is_local = false;   ///< the running mean is clearly likelier, for all its parameters
+};
+ResidualNoise residual_noise(const Eigen::VectorXcd& residual, const Eigen::VectorXd& size);
 
 /// Correlation length of residuals in lines: 1 for white noise, more for a misfit that is smooth over lines.
 double correlation_length(const Eigen::VectorXcd& residual);

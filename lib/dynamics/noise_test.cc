@@ -63,7 +63,9 @@ TEST_CASE("the variance of a residual is fitted as floor and share, or locally")
   for (const auto& [floor, share] : {std::pair(0.3, 0.0), std::pair(0.0, 0.02), std::pair(0.3, 0.02)}) {
     const Eigen::VectorXd truth = (floor * floor + share * share * size.array().square()).matrix();
     const Eigen::VectorXcd residual = noise.cwiseProduct(truth.cwiseSqrt().cast<std::complex<double>>());
-    const Eigen::VectorXd found = residual_variance(residual, size);
+    const ResidualNoise noise_found = residual_noise(residual, size);
+    const Eigen::VectorXd& found = noise_found.smooth;
+    CHECK_FALSE(noise_found.is_local);
     INFO(floor << ' ' << share);
     CHECK((found.array() / truth.array()).minCoeff() > 0.8);
     CHECK((found.array() / truth.array()).maxCoeff() < 1.25);
@@ -71,7 +73,8 @@ TEST_CASE("the variance of a residual is fitted as floor and share, or locally")
   // Hum around some lines: neither of the two.
   Eigen::VectorXcd humming = noise;
   humming.segment(1000, 400) *= 10;
-  const Eigen::VectorXd found = residual_variance(humming, Eigen::VectorXd::Ones(4000));
-  CHECK(found[1200] == Approx(100).epsilon(0.6));
-  CHECK(found[3000] == Approx(1).epsilon(0.6));
+  const ResidualNoise found = residual_noise(humming, Eigen::VectorXd::Ones(4000));
+  CHECK(found.is_local);
+  CHECK(found.local[1200] == Approx(100).epsilon(0.6));
+  CHECK(found.local[3000] == Approx(1).epsilon(0.6));
 }

@@ -14,7 +14,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr Eigen::Index kStartPairs = 30;
+constexpr Eigen::Index kStartPairs = 48;
 constexpr int kRelocations = 8;
 constexpr int kRelocationsAfterPruning = 2;
 // Of refinements: the first, of many candidates; those that only have to tell whether a mode pays; between
@@ -30,6 +30,8 @@ constexpr double kFineFloor = 1e-7;
 constexpr double kRmsShare = 0.01;
 // Misfit over noise from which on the noise is not what limits the fit.
 constexpr double kModelErrorFactor = 1.5;
+// The same for a noise that is taken from the misfit itself, when that turns out not to be white.
+constexpr double kLargestInflation = 1.6;
 // Where the model cannot reach the noise (a nonlinear joint, hysteretic damping, a leaking window), the
 // residual is not made of modes. Above this relative error a mode has to take away the lesser share of the
 // residual to be one, below it the larger.
@@ -74,8 +76,12 @@ void ModeSearch::run(const Progress& progress) {
   } else if (floor_matters()) {
     tighten();
   } else if (estimate_noise_) {
+    const std::vector<Eigen::VectorXd> seen = variance_;
     settle_noise();
-    select();
+    if (inflation_of(current_) > kLargestInflation) {
+      variance_ = seen;
+      build_up();
+    }
   }
   current_ = refined(current_.modes, kLast);
 }
@@ -116,17 +122,25 @@ void ModeSearch::reweight() {
 }
 
 // The same once the modes are known, from all of the residual: the fewer the numbers that describe the noise,
-// the surer the weights.
+// the surer the weights. What is left in some places only may be modes; if it is not, the noise is larger
+// there.
 void ModeSearch::settle_noise() {
-  const double parameters = parameters_per_mode() * static_cast<double>(current_.modes.size());
-  const double correction = data_.values() / std::max(data_.values() - parameters, 1.0);
-  for (std::size_t e = 0; e < data_.curves.size(); ++e) {
-    const Curve& curve = data_.curves[e];
-    const Eigen::VectorXcd model = curve_of(current_.modes, curve, data_.s);
-    variance_[e] = correction * residual_variance(model - curve.h, model.cwiseAbs());
+  for (const bool local_allowed : {false, true}) {
+    const double parameters = parameters_per_mode() * static_cast<double>(current_.modes.size());
+    const double correction = data_.values() / std::max(data_.values() - parameters, 1.0);
+    bool local = false;
+    for (std::size_t e = 0; e < data_.curves.size(); ++e) {
+      const Curve& curve = data_.curves[e];
+      const Eigen::VectorXcd model = curve_of(current_.modes, curve, data_.s);
+      const ResidualNoise noise = residual_noise(model - curve.h, model.cwiseAbs());
+      variance_[e] = correction * (local_allowed && noise.is_local ? noise.local : noise.smooth);
+      local = local || noise.is_local;
+    }
+    set_weights();
+    current_ = refined(current_.modes, kBetween);
+    select();
+    if (!local) return;
   }
-  set_weights();
-  current_ = refined(current_.modes, kBetween);
 }
 
 RefinedModes ModeSearch::refined(const std::vector<Mode>& modes, const Effort& effort) const {
