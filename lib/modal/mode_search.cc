@@ -14,7 +14,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr Eigen::Index kStartPairs = 48;
+constexpr Eigen::Index kStartPairs = 30, kMostStartPairs = 120;
 constexpr int kRelocations = 8;
 constexpr int kRelocationsAfterPruning = 2;
 // Of refinements: the first, of many candidates; those that only have to tell whether a mode pays; between
@@ -235,8 +235,8 @@ double ModeSearch::price(const RefinedModes& with, const RefinedModes& without) 
 
 // ---- candidates ----
 
-void ModeSearch::find_modes() {
-  const Eigen::Index pairs = std::min(kStartPairs, data_.lines() / 3);
+// Poles that matter, of that many to start from.
+Eigen::VectorXcd ModeSearch::find_poles(Eigen::Index pairs) const {
   Eigen::VectorXcd poles = starting_poles(data_, pairs);
   for (int i = 0; i < kRelocations; ++i) poles = relocate_poles(data_, poles);
   while (poles.size() > 1) {
@@ -251,11 +251,21 @@ void ModeSearch::find_modes() {
     const auto worthless = std::count_if(order.begin(), order.end(),
                                          [&](Eigen::Index k) { return linear.removal_loss[k] < least; });
     if (worthless == 0) break;
-    const auto dropped = std::clamp<std::ptrdiff_t>(worthless / 3, 1, worthless);
+    const auto dropped = std::clamp<std::ptrdiff_t>(worthless / 2, 1, worthless);
     std::vector<Eigen::Index> kept(order.begin() + dropped, order.end());
     std::sort(kept.begin(), kept.end());
     poles = poles(kept).eval();
     for (int i = 0; i < kRelocationsAfterPruning; ++i) poles = relocate_poles(data_, poles);
+  }
+  return poles;
+}
+
+void ModeSearch::find_modes() {
+  Eigen::VectorXcd poles;
+  // From more poles where nearly all of them matter.
+  for (Eigen::Index pairs = kStartPairs; pairs <= kMostStartPairs; pairs *= 2) {
+    poles = find_poles(std::min(pairs, data_.lines() / 3));
+    if (5 * poles.size() < 3 * pairs || 3 * pairs >= data_.lines()) break;
   }
   const LinearResidues linear = linear_residues(data_, poles);
   std::vector<Mode> modes;

@@ -56,6 +56,7 @@ class ModeSearch {
   double relative_error(const std::vector<Mode>& modes) const;
   double price(const RefinedModes& with, const RefinedModes& without) const;
 
+  Eigen::VectorXcd find_poles(Eigen::Index pairs) const;
   void find_modes();
   void select();
   void remove_modes();
