@@ -40,6 +40,20 @@ refused 65 '^fit-modes: good.json: no lines in the band' fit-modes --band 1000:3
 jq '.h |= map(.re |= map(0) | .im |= map(0))' good.json >zeros.json
 refused 1 '^fit-modes: zeros.json: all entries are zero' fit-modes zeros.json
 
+# A table's covariance, as synthesize (and every other reader) meets it.
+fit-modes --quiet good.json --modes 2 -o table.json
+table_with() {
+  jq "$1" table.json >wrong.json
+  refused 65 "^fit-modes: wrong.json: $2" fit-modes --synthesize 1:2:2 wrong.json
+}
+table_with '.fit.covariance.parameters[3] = "/modes/9/frequency_hz"' '/fit/covariance/parameters/3: "/modes/9/frequency_hz": expected the pointer'
+table_with '.fit.covariance.parameters[3] = .fit.covariance.parameters[2]' '/fit/covariance/parameters/3: .*each once'
+table_with '.fit.covariance.matrix |= .[1:]' '/fit/covariance/matrix: a list of 19: expected 20 rows'
+table_with '.fit.covariance.matrix[4] |= .[1:]' '/fit/covariance/matrix/4: .*expected 20 numbers'
+table_with '.fit.covariance.matrix[4][4] = -1' '/fit/covariance/matrix/4: .*expected a variance that is not negative'
+table_with '.fit.covariance.matrix[4][5] = 1' '/fit/covariance/matrix: .*expected a symmetric matrix'
+table_with 'del(.fit.covariance.matrix)' '/fit/covariance/matrix: missing'
+
 refused 64 '^fit-modes: --band: 5: expected LO:HI' fit-modes --band 5 good.json
 refused 64 '^fit-modes: --modes: many: expected auto or a number' fit-modes --modes many good.json
 refused 64 '^fit-modes: --modes: 0: expected' fit-modes --modes 0 good.json

@@ -1,11 +1,9 @@
 // fit-modes: frequency responses in, modal table out; or, with --synthesize, the other way.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <string_view>
 
 #include "base/error.h"
 #include "cli/exit_status.h"
@@ -17,12 +15,12 @@
 #include "document/modal_table.h"
 #include "dynamics/synthesis.h"
 #include "modal/fit.h"
+#include "report.h"
 
 namespace stablecut {
 namespace {
 
-// By ModeModel.
-constexpr std::array<std::string_view, 3> kModelNames = {"nonsymmetric", "symmetric", "proportional"};
+constexpr int kHighestOrder = 40;  // of the stabilization diagram, pole pairs
 
 class FitModes : public cli::Tool {
  public:
@@ -53,8 +51,12 @@ class FitModes : public cli::Tool {
                            "Form of the modes (default: nonsymmetric); best: by Schwarz' criterion");
     add_file_option(app, "--fitted", fitted_path_,
                     "Also write the fitted model on the measured lines, an frf");
-    fit_options_ = {app.get_option("--from"),  app.get_option("--quantity"), app.get_option("--band"),
-                    app.get_option("--modes"), app.get_option("--model"),    app.get_option("--fitted")};
+    add_file_option(app, "--stabilization", stabilization_path_,
+                    "Also write the stabilization diagram: poles by order, and the modes chosen");
+    fit_options_ = {app.get_option("--from"),         app.get_option("--quantity"),
+                    app.get_option("--band"),         app.get_option("--modes"),
+                    app.get_option("--model"),        app.get_option("--fitted"),
+                    app.get_option("--stabilization")};
 
     cli::add_range_option(app, "--synthesize", synthesize_,
                           "Write the frf of a modal table on these lines, Hz");
@@ -110,6 +112,12 @@ class FitModes : public cli::Tool {
         return measured.find(entry.response, entry.reference) == nullptr;
       });
       write_document(fitted_path_, frf_to_json(fitted));
+    }
+    if (!stabilization_path_.empty()) {
+      cli::ProgressBar bar("fit-modes: orders", !quiet());
+      const auto orders =
+          stabilization(result.data, kHighestOrder, threads(), [&](double share) { bar.show(share); });
+      write_document(stabilization_path_, stabilization_to_json(orders, result, measured));
     }
   }
 
@@ -169,38 +177,7 @@ class FitModes : public cli::Tool {
     return to_receptance(std::move(frf));
   }
 
-  static Json fit_report(const ModalFit& fit, const FrequencyResponse& measured) {
-    Json curves = Json::array();
-    for (const CurveFit& curve : fit.curves) {
-      curves.push_back({{"response", curve.response},
-                        {"reference", curve.reference},
-                        {"relative_error", curve.relative_error},
-                        {"reduced_chi_square", curve.reduced_chi_square}});
-    }
-    Json models = Json::array();
-    for (const ModelCriterion& criterion : fit.criteria) {
-      models.push_back({{"model", kModelNames[static_cast<std::size_t>(criterion.model)]},
-                        {"modes", criterion.modes},
-                        {"parameters", criterion.parameters},
-                        {"chi_square", criterion.chi_square},
-                        {"bic", criterion.bic}});
-    }
-    Json report = {{"model", kModelNames[static_cast<std::size_t>(fit.mode_model)]},
-                   {"band_hz", Json::array({measured.frequency_hz[0],
-                                            measured.frequency_hz[measured.frequency_hz.size() - 1]})},
-                   {"lines", measured.frequency_hz.size()},
-                   {"noise", fit.variance_given ? "given" : "estimated"},
-                   {"criterion", {{"name", "bic"}, {"models", std::move(models)}}},
-                   {"stopped_by", fit.limited_by_model ? "model error" : "noise"},
-                   {"relative_error", fit.relative_error},
-                   {"reduced_chi_square", fit.reduced_chi_square},
-                   {"curves", std::move(curves)}};
-    if (fit.reciprocity)
-      report["non_reciprocity"] = {{"index", fit.reciprocity->index}, {"of_noise", fit.reciprocity->noise}};
-    return report;
-  }
-
-  std::string from_, quantity_, model_, fitted_path_, input_name_;
+  std::string from_, quantity_, model_, fitted_path_, stabilization_path_, input_name_;
   std::optional<Range> band_, synthesize_;
   std::optional<int> modes_, seed_;
   std::optional<double> noise_db_, noise_floor_db_;

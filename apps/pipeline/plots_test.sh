@@ -5,10 +5,11 @@ scripts=$SOURCE/scripts
 sdm-lobes "$data/thesis-table-6-2.json" --cut "$data/thesis-cut.json" --points "$data/thesis-table-6-3.csv" \
   --speed 5000:20000:12 --depth 0:4:9 -o lobes.json
 fit-modes --synthesize 2:1000:200 "$data/thesis-table-6-2.json" -o frf.json
+fit-modes --quiet --synthesize 2:1000:1000 "$data/thesis-table-6-2.json" | fit-modes --quiet --stabilization stabilization.json -o modes.json
 robot=$data/kr360.json
 jq '{format: "stablecut/joint-stiffness/1", stiffness_n_m_per_rad: .k_theta_2d_n_m_per_rad}' "$data/yanshan-poses.json" >k2d.json
 best-pose --robot "$robot" --height 1600 --x=-2600:2600:14 --y=-2600:2600:14 --map pose-map.json k2d.json -o pose.json
-for plot in lobes frf pose-map; do
+for plot in lobes frf pose-map stabilization; do
   for form in svg png; do
     "$scripts/plot-$plot" $plot.json -o $plot.$form 2>.err
     check "plot-$plot to $form" test $? -eq 0 -a -s $plot.$form -a ! -s .err

@@ -77,6 +77,10 @@ partial = {"format": "stablecut/joint-stiffness/1", "stiffness_n_m_per_rad": pap
 poses = {"format": "stablecut/pose-list/1", "poses": [{"joints_deg": pose["joints_deg"]} for pose in papers["height_1600_mm"]]
          + [{"joints_deg": [0, -60, 0, 0, 0, 0]}]}
 with tempfile.TemporaryDirectory() as folder:
+    diagram_path = pathlib.Path(folder) / "diagram.json"
+    documents["best model"] = run("fit-modes", "--model", "best", "--stabilization", str(diagram_path), stdin=json.dumps(tap))
+    documents["stabilization diagram"] = json.loads(diagram_path.read_text())
+with tempfile.TemporaryDirectory() as folder:
     list_path, map_path = pathlib.Path(folder) / "poses.json", pathlib.Path(folder) / "map.json"
     list_path.write_text(json.dumps(poses))
     search = ["best-pose", *robot, "--height", "1600", "--x", "0:2500:6", "--y", "0:2500:6", "--force", "0,0,-600"]
@@ -111,7 +115,7 @@ documents["stiffness where one load leaves joints unseen"] = run(
     "joint-stiffness", *robot, stdin=json.dumps(documents["load samples"]))
 required = {"frf": "h", "modal-table": "modes", "lobes": "limit", "robot": "tool", "load-samples": "samples",
             "joint-stiffness": "stiffness_n_m_per_rad", "pose-list": "poses", "measurement-plan": "samples", "pose": "index",
-            "pose-map": "score", "assembly": "tool", "tool-joint": "x"}
+            "pose-map": "score", "assembly": "tool", "tool-joint": "x", "stabilization": "orders"}
 # A joint in one direction has its values at the root.
 assert set(required) | {"cut"} == set(schemas), "a kind without an example"
 for name, document in documents.items():

@@ -149,8 +149,7 @@ ModalModel modal_table_from_json(const Json& document, const Source& source, con
 
 Json modal_table_to_json(const ModalModel& model) {
   Json modes = Json::array();
-  for (const Mode& given : model.modes) {
-    const Mode mode = normalised(given);
+  for (const Mode& mode : model.modes) {
     Json item = {{"frequency_hz", mode.frequency_hz},
                  {"damping_ratio", mode.damping_ratio},
                  {"psi_r", vector_to(mode.psi_r)},

@@ -10,8 +10,8 @@ namespace stablecut {
 /// ("-x") turns its components and loses it. Throws DataError.
 ModalModel modal_table_from_json(const Json& document, const Source& source, const std::string& pointer = "");
 
-/// The document without provenance, modes in the order given and normalised; of `fit` the covariance, if
-/// known, which must be that of the normalised numbers.
+/// The document without provenance, modes as given: in the contract's normalisation when they are. Of `fit`
+/// the covariance, if known.
 Json modal_table_to_json(const ModalModel& model);
 
 }  // namespace stablecut

@@ -53,6 +53,8 @@ Eigen::Index reference_component(const Mode& mode) {
 // psi_r takes this factor, psi_l its inverse; the shared phase is half of the product's, in (-90, 90].
 std::complex<double> normalising_factor(const Mode& mode) {
   const Eigen::Index at = reference_component(mode);
+  // A symmetric mode stays exactly so.
+  if (mode.psi_r == mode.psi_l) return mode.psi_r[at].real() < 0 ? -1 : 1;
   const std::complex<double> product = mode.psi_r[at] * mode.psi_l[at];
   const double wanted_phase = std::abs(product) > 0 ? std::arg(product) / 2 : 0.0;
   return std::polar(std::sqrt(mode.psi_l.norm() / mode.psi_r.norm()),

@@ -48,3 +48,41 @@ TEST_CASE("pole and frequency are inverse") {
   CHECK(mode.frequency_hz == Approx(100).epsilon(1e-14));
   CHECK(mode.damping_ratio == Approx(0.02).epsilon(1e-14));
 }
+
+TEST_CASE("the slope of normalising is that of central differences") {
+  const Mode mode =
+      mode_with({Complex(0.3, -2), Complex(-5, 1)}, {Complex(1e-1, 2e-2), Complex(-3e-2, 4e-2)});
+  const auto parameters = [](const Mode& from) {
+    const Mode n = normalised(from);
+    Eigen::VectorXd p(10);
+    p << n.frequency_hz, n.damping_ratio, n.psi_r[0].real(), n.psi_r[0].imag(), n.psi_r[1].real(),
+        n.psi_r[1].imag(), n.psi_l[0].real(), n.psi_l[0].imag(), n.psi_l[1].real(), n.psi_l[1].imag();
+    return p;
+  };
+  const Eigen::MatrixXd slope = normalisation_slope(mode);
+  for (Eigen::Index c = 0; c < 10; ++c) {
+    const double step = 1e-6;
+    const auto moved = [&](double by) {
+      Mode other = mode;
+      const Complex change = c % 2 == 0 ? Complex(by, 0) : Complex(0, by);
+      if (c < 2) set_pole(other, mode.pole() + change);
+      if (c >= 2 && c < 6) other.psi_r[(c - 2) / 2] += change;
+      if (c >= 6) other.psi_l[(c - 6) / 2] += change;
+      return parameters(other);
+    };
+    const Eigen::VectorXd expected = (moved(step) - moved(-step)) / (2 * step);
+    INFO("coordinate " << c);
+    CHECK((slope.col(c) - expected).norm() < 1e-6 * (1 + expected.norm()));
+  }
+}
+
+TEST_CASE("chosen modes take their part of the covariance") {
+  ModalModel model;
+  model.dofs = {"x"};
+  model.modes = std::vector<Mode>(3, mode_with({1, 0}, {1, 0}));
+  model.covariance = Eigen::VectorXd::LinSpaced(18, 1, 18).asDiagonal();
+  const ModalModel chosen = chosen_modes(model, {2, 0});
+  CHECK(chosen.covariance.diagonal()[0] == 13);
+  CHECK(chosen.covariance.diagonal()[11] == 6);
+  CHECK(chosen.deviation(1)[0] == 1);
+}

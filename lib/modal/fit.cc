@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <cstdio>
 #include <memory>
 #include <numeric>
 
@@ -57,6 +58,12 @@ std::vector<Eigen::VectorXd> known_variances(const FrequencyResponse& measured, 
     if (result.back().size() == 0) return {};
   }
   return result;
+}
+
+std::string percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
+  return text;
 }
 
 // Entries that the document does not have although it has both of their directions.
@@ -115,7 +122,7 @@ bool alike(const Group& a, const Group& b) {
 // Each group's modes in one model.
 using Searches = std::vector<std::shared_ptr<ModeSearch>>;
 
-Searches search_groups(const std::vector<Group>& groups, ModeModel model, const Progress& progress) {
+Searches search_groups(const std::vector<Group>& groups, const Progress& progress) {
   Searches searches;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     // A round tool in a round spindle: the same numbers in y as in x need no second fit.
@@ -126,8 +133,7 @@ Searches search_groups(const std::vector<Group>& groups, ModeModel model, const 
       searches.push_back(searches[at]);
       continue;
     }
-    searches.push_back(
-        std::make_shared<ModeSearch>(groups[g].data, groups[g].variance, model, groups[g].wanted));
+    searches.push_back(std::make_shared<ModeSearch>(groups[g].data, groups[g].variance, groups[g].wanted));
     searches.back()->run(progress);
   }
   return searches;
@@ -148,27 +154,23 @@ ModelCriterion criterion_of(const Searches& searches, const std::vector<double>&
   return criterion;
 }
 
-// The modes in the model that the options want, or in the best: all are judged by the noise, and the model
-// error, of the least restricted one.
+// The modes in the model that the options want, or in the best. They are found in the least restricted one,
+// whose noise and model error judge all.
 Searches chosen_searches(const std::vector<Group>& groups, const FitOptions& options,
                          std::vector<ModelCriterion>& criteria) {
-  Searches best = search_groups(groups, options.model.value_or(kModels[0]), options.progress);
+  const Searches found = search_groups(groups, options.progress);
   std::vector<double> inflation;
-  for (const auto& search : best) inflation.push_back(search->inflation());
-  criteria.push_back(criterion_of(best, inflation));
-  if (options.model) return best;
-  const Searches first = best;
-  double least = criteria[0].bic;
-  for (const ModeModel model : {kModels[1], kModels[2]}) {
-    Searches restricted;
-    for (const auto& search : first) {
-      restricted.push_back(std::make_shared<ModeSearch>(*search));
-      restricted.back()->change_model(model);
+  for (const auto& search : found) inflation.push_back(search->inflation());
+  Searches best;
+  for (const ModeModel model : kModels) {
+    if (options.model && model != *options.model) continue;
+    Searches searches;
+    for (const auto& search : found) {
+      searches.push_back(std::make_shared<ModeSearch>(*search));
+      if (model != search->model()) searches.back()->change_model(model);
     }
-    criteria.push_back(criterion_of(restricted, inflation));
-    if (criteria.back().bic >= least) continue;
-    least = criteria.back().bic;
-    best = std::move(restricted);
+    criteria.push_back(criterion_of(searches, inflation));
+    if (best.empty() || criteria.back().bic < criterion_of(best, inflation).bic) best = std::move(searches);
   }
   return best;
 }
@@ -273,6 +275,7 @@ ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options)
                             curve.h.isZero(0) ? 0.0 : error.norm() / curve.h.norm(),
                             error.cwiseAbs2().dot(curve.weight) / static_cast<double>(error.size())});
     }
+    fit.data.push_back(part.data());
     const FittedTable table = fitted_table(part.data(), part.result().modes, part.model());
     by_reciprocity = by_reciprocity || table.by_reciprocity;
     add_table(table, groups[g].directions, part.inflation(), fit.model);
@@ -294,14 +297,17 @@ ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options)
   } else if (!missing.empty() && groups.size() > 1) {
     fit.warnings.push_back("missing entries " + missing + ": these directions are taken as uncoupled");
   }
-  if (fit.limited_by_model && !options.modes && fit.relative_error > kNoFit) {
-    throw NoAnswer("the modes found leave " + std::to_string(std::lround(100 * fit.relative_error)) +
-                   " % of the curves unexplained: is the low end of the band unusable (--band)?");
-  }
   if (fit.limited_by_model) {
-    fit.warnings.push_back(
-        "the residual is larger than the noise and not made of modes: fitted by the strongest modes to " +
-        std::to_string(std::lround(100 * fit.relative_error)) + " %");
+    const std::string left = percent(fit.relative_error) + " of the curves";
+    const bool restricted = fit.mode_model != ModeModel::kNonsymmetric;
+    if (!options.modes && fit.relative_error > kNoFit) {
+      throw NoAnswer(restricted ? "modes of this model leave " + left + ": the structure is not like that"
+                                : "the modes found leave " + left +
+                                      ": is the low end of the band unusable (--band)?");
+    }
+    fit.warnings.push_back("the residual is larger than the noise and not made of " +
+                           std::string(restricted ? "modes of this model" : "modes: the strongest") +
+                           " leave " + left);
   }
   if (fit.model.modes.empty()) throw NoAnswer("no mode stands out of the noise");
   return fit;

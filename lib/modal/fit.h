@@ -13,6 +13,7 @@
 #include "base/progress.h"
 #include "dynamics/frequency_response.h"
 #include "dynamics/modal_model.h"
+#include "modal/fit_data.h"
 #include "modal/mode_parameters.h"
 
 namespace stablecut {
@@ -52,6 +53,7 @@ struct ModalFit {
   ModeModel mode_model = ModeModel::kNonsymmetric;
   std::vector<ModelCriterion> criteria;  ///< of the models that were tried
   std::optional<Reciprocity> reciprocity;
+  std::vector<FitData> data;  ///< the curves of each independent group, as they were weighted
   std::vector<CurveFit> curves;
   double relative_error = 0;  ///< over all curves together
   double reduced_chi_square = 0;

@@ -199,3 +199,58 @@ TEST_CASE("equal numbers in x and y are fitted once, to the same as each alone")
     CHECK(both.model.modes[k].psi_r[static_cast<Eigen::Index>(k % 2)] == alone.model.modes[k / 2].psi_r[0]);
   }
 }
+
+TEST_CASE("the best model is the one behind the data") {
+  for (const ModeModel model : {ModeModel::kNonsymmetric, ModeModel::kSymmetric, ModeModel::kProportional}) {
+    ModalModel truth = hard_case();
+    for (Mode& mode : truth.modes) {
+      if (model == ModeModel::kSymmetric) mode.psi_l = mode.psi_r * Complex(0, -1e-4);
+      if (model == ModeModel::kProportional)
+        mode.psi_r = mode.psi_l = std::polar(1e-2, -0.7853981633974483) * mode.psi_r.real();
+    }
+    FrequencyResponse measured = synthesize(truth, kLines);
+    add_noise(measured, {{}, 40.0, 4});
+    for (auto& entry : measured.entries) entry.variance.resize(0);
+    const ModalFit fit = fit_modes(measured, {{}, {}, {}});
+    INFO("model " << static_cast<int>(model));
+    CHECK(fit.mode_model == model);
+    CHECK(fit.model.modes.size() == truth.modes.size());
+    REQUIRE(fit.criteria.size() == 3);
+    for (const ModelCriterion& other : fit.criteria)
+      CHECK(other.bic >= fit.criteria[static_cast<std::size_t>(model)].bic);
+    REQUIRE(fit.reciprocity);
+    if (model == ModeModel::kNonsymmetric) {
+      CHECK(fit.reciprocity->index > 0.3);
+    } else {
+      CHECK(fit.reciprocity->index == Approx(fit.reciprocity->noise).epsilon(0.1));
+    }
+    // Asked for by name: the same, without the others.
+    const ModalFit named = fit_modes(measured, {{}, model, {}});
+    CHECK(named.model.modes.size() == truth.modes.size());
+    CHECK(named.criteria.size() == 1);
+    for (std::size_t k = 0; k < named.model.modes.size(); ++k)
+      CHECK(named.model.modes[k].frequency_hz == Approx(fit.model.modes[k].frequency_hz).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("every number of the table lies within its deviations") {
+  const ModalModel truth = hard_case();
+  FrequencyResponse measured = synthesize(truth, kLines);
+  add_noise(measured, {{}, 40.0, 6});
+  const ModalFit fit = fit_modes(measured);
+  REQUIRE(fit.model.modes.size() == truth.modes.size());
+  double square = 0;
+  for (std::size_t k = 0; k < truth.modes.size(); ++k) {
+    const Mode expected = normalised(truth.modes[k]);
+    const Eigen::VectorXd deviation = fit.model.deviation(static_cast<Eigen::Index>(k));
+    for (Eigen::Index i = 0; i < 2; ++i) {
+      const Complex right = fit.model.modes[k].psi_r[i] - expected.psi_r[i],
+                    left = fit.model.modes[k].psi_l[i] - expected.psi_l[i];
+      square += std::pow(right.real() / deviation[2 + 2 * i], 2) +
+                std::pow(right.imag() / deviation[3 + 2 * i], 2) +
+                std::pow(left.real() / deviation[6 + 2 * i], 2) +
+                std::pow(left.imag() / deviation[7 + 2 * i], 2);
+    }
+  }
+  CHECK(square / static_cast<double>(8 * truth.modes.size()) == Approx(1).margin(0.7));
+}

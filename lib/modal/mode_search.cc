@@ -44,11 +44,9 @@ constexpr double kLeastHalfWidth = 0.02;
 
 }  // namespace
 
-ModeSearch::ModeSearch(FitData data, std::vector<Eigen::VectorXd> variance, ModeModel model,
-                       std::optional<int> wanted_modes)
+ModeSearch::ModeSearch(FitData data, std::vector<Eigen::VectorXd> variance, std::optional<int> wanted_modes)
     : data_(std::move(data)),
       variance_(std::move(variance)),
-      model_(model),
       estimate_noise_(variance_.empty()),
       wanted_modes_(wanted_modes),
       floor_(kCoarseFloor) {
@@ -149,9 +147,8 @@ RefinedModes ModeSearch::refined(const std::vector<Mode>& modes, const Effort& e
 
 void ModeSearch::change_model(ModeModel model) {
   model_ = model;
-  current_ = refined(current_.modes, kBetween);
-  remove_modes();
   current_ = refined(current_.modes, kLast);
+  limited_by_model_ = limited_by_model_ || exceeds_noise();
 }
 
 bool ModeSearch::exceeds_noise() const { return current_.chi_square / complex_values() > kModelErrorFactor; }

@@ -19,11 +19,10 @@ class ModeSearch {
   /// `variance` [curves][lines] of the noise; empty: estimated from the curves and from what the model
   /// leaves. The weights of `data` are set here. With `wanted_modes` that many are kept, whatever they are
   /// worth.
-  ModeSearch(FitData data, std::vector<Eigen::VectorXd> variance, ModeModel model,
-             std::optional<int> wanted_modes);
+  ModeSearch(FitData data, std::vector<Eigen::VectorXd> variance, std::optional<int> wanted_modes);
 
   void run(const Progress& progress);
-  /// After a run: the modes found, as far as they are worth it, in another model with the same weights.
+  /// After a run: the modes that were found, in another model with the same weights.
   void change_model(ModeModel model);
 
   const FitData& data() const { return data_; }
@@ -67,7 +66,7 @@ class ModeSearch {
 
   FitData data_;
   std::vector<Eigen::VectorXd> variance_;  // of the noise, per curve
-  ModeModel model_;
+  ModeModel model_ = ModeModel::kNonsymmetric;
   bool estimate_noise_;
   std::optional<int> wanted_modes_;
   Progress progress_;

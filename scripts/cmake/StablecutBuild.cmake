@@ -52,10 +52,10 @@ function(stablecut_room name)
   endforeach()
 endfunction()
 
-# stablecut_tool(NAME LINK libraries): the executable of apps/NAME, from its main.cpp.
+# stablecut_tool(NAME [SOURCES more.cc ...] LINK libraries): the executable of apps/NAME, from its main.cpp.
 function(stablecut_tool name)
-  cmake_parse_arguments(TOOL "" "" "LINK" ${ARGN})
-  add_executable(${name} main.cpp)
+  cmake_parse_arguments(TOOL "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} main.cpp ${TOOL_SOURCES})
   target_link_libraries(${name} PRIVATE stablecut_settings stablecut_cli ${TOOL_LINK})
   install(TARGETS ${name})
   install(FILES ${name}.1 TYPE MAN RENAME man1/${name}.1)
