@@ -18,16 +18,17 @@ Json fit_report(const ModalFit& fit, const FrequencyResponse& measured) {
                       {"chi_square", criterion.chi_square},
                       {"bic", criterion.bic}});
   }
-  Json report = {{"model", kModelNames[static_cast<std::size_t>(fit.mode_model)]},
-                 {"band_hz", Json::array({measured.frequency_hz[0],
-                                          measured.frequency_hz[measured.frequency_hz.size() - 1]})},
-                 {"lines", measured.frequency_hz.size()},
-                 {"noise", fit.variance_given ? "given" : "estimated"},
-                 {"criterion", {{"name", "bic"}, {"models", std::move(models)}}},
-                 {"stopped_by", fit.limited_by_model ? "model error" : "noise"},
-                 {"relative_error", fit.relative_error},
-                 {"reduced_chi_square", fit.reduced_chi_square},
-                 {"curves", std::move(curves)}};
+  Json report = {
+      {"model", kModelNames[static_cast<std::size_t>(fit.mode_model)]},
+      {"band_hz",
+       Json::array({measured.frequency_hz[0], measured.frequency_hz[measured.frequency_hz.size() - 1]})},
+      {"lines", measured.frequency_hz.size()},
+      {"noise", fit.variance_given ? "given" : "estimated"},
+      {"criterion", {{"name", "bic"}, {"inflation", fit.inflation}, {"models", std::move(models)}}},
+      {"stopped_by", fit.limited_by_model ? "model error" : "noise"},
+      {"relative_error", fit.relative_error},
+      {"reduced_chi_square", fit.reduced_chi_square},
+      {"curves", std::move(curves)}};
   if (fit.reciprocity)
     report["non_reciprocity"] = {{"index", fit.reciprocity->index}, {"of_noise", fit.reciprocity->noise}};
   return report;

@@ -112,9 +112,11 @@ FrequencyResponse on_lines(const FrequencyResponse& frf, const Eigen::VectorXd& 
 
 Eigen::VectorXd known_variance(const FrequencyResponseEntry& entry) {
   if (entry.variance.size() > 0 || entry.coherence.size() == 0) return entry.variance;
-  // Var H1 = (1 - coherence) / (2 averages coherence) |H|^2 for each part.
+  // Var H1 = (1 - coherence) / (2 averages coherence) |H|^2 for each part; the coherence, an estimate from
+  // the same averages, takes one of them.
   const Eigen::ArrayXd coherence = entry.coherence.array().max(1e-6);
-  return (1 - coherence) / (coherence * entry.averages.value_or(1)) * entry.h.array().abs2();
+  const double averages = std::max(entry.averages.value_or(1) - 1, 1.0);
+  return (1 - coherence) / (coherence * averages) * entry.h.array().abs2();
 }
 
 }  // namespace stablecut

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace stablecut {
@@ -41,25 +42,31 @@ double likelihood(const Eigen::VectorXd& square, const Eigen::VectorXd& variance
   return -(positive.log() + square.array() / positive).sum();
 }
 
-// The likeliest floor + share * size_square, both not negative, by Fisher scoring.
-Eigen::VectorXd floor_and_share(const Eigen::VectorXd& square, const Eigen::VectorXd& size_square) {
+// The likeliest part of one of two shapes (squared, [lines]), or sum of parts of both where that is worth a
+// number more; by Fisher scoring.
+Eigen::VectorXd likeliest_sum(const Eigen::VectorXd& square, const Eigen::VectorXd& first_shape,
+                              const Eigen::VectorXd& second_shape) {
   constexpr int kSteps = 30;
-  const double mean = square.mean();
-  const Eigen::ArrayXd size = size_square.array() / std::max(size_square.mean(), 1e-300);
-  const double share = (square.array() / size.max(1e-300)).mean();
-  Eigen::Vector2d part(mean / 2, mean / 2);
+  const auto scaled = [](const Eigen::VectorXd& shape) -> Eigen::ArrayXd {
+    return shape.array().max(1e-300) / std::max(shape.mean(), 1e-300);
+  };
+  const Eigen::ArrayXd a = scaled(first_shape), b = scaled(second_shape);
+  const double of_a = (square.array() / a).mean(), of_b = (square.array() / b).mean();
+  Eigen::Vector2d part(of_a / 2, of_b / 2);
   for (int step = 0; step < kSteps; ++step) {
-    const Eigen::ArrayXd weight = (part[0] + part[1] * size).square().max(1e-300).inverse();
+    const Eigen::ArrayXd weight = (part[0] * a + part[1] * b).square().max(1e-300).inverse();
+    const Eigen::ArrayXd weighted_a = weight * a, weighted_b = weight * b;
     Eigen::Matrix2d normal;
-    normal << weight.sum(), (weight * size).sum(), (weight * size).sum(), (weight * size.square()).sum();
-    const Eigen::Vector2d right((weight * square.array()).sum(), (weight * size * square.array()).sum());
+    normal << (weighted_a * a).sum(), (weighted_a * b).sum(), (weighted_a * b).sum(), (weighted_b * b).sum();
+    const Eigen::Vector2d right((weighted_a * square.array()).sum(), (weighted_b * square.array()).sum());
     const Eigen::Vector2d next = normal.inverse() * right;
     if (!next.allFinite()) break;
-    part = next.cwiseMax(1e-6 * part);
+    const Eigen::Vector2d last = std::exchange(part, next.cwiseMax(1e-6 * part));
+    if (((part - last).array().abs() <= 1e-4 * last.array().abs()).all()) break;
   }
-  Eigen::VectorXd best = Eigen::VectorXd::Constant(square.size(), mean);
+  Eigen::VectorXd best = of_a * a;
   for (const Eigen::VectorXd& other :
-       {Eigen::VectorXd(share * size), Eigen::VectorXd(part[0] + part[1] * size)}) {
+       {Eigen::VectorXd(of_b * b), Eigen::VectorXd(part[0] * a + part[1] * b)}) {
     if (likelihood(square, other) > likelihood(square, best)) best = other;
   }
   return best;
@@ -77,28 +84,49 @@ Eigen::VectorXd running_mean(const Eigen::VectorXd& square) {
 
 }  // namespace
 
-Eigen::VectorXd estimated_variance(const Eigen::VectorXcd& values, const Eigen::VectorXd& size) {
+NoiseShapes floor_shapes(const Eigen::VectorXd& omega) {
+  return {Eigen::VectorXd::Ones(omega.size()), omega.cwiseInverse(), omega.cwiseAbs2().cwiseInverse()};
+}
+
+Eigen::VectorXd estimated_variance(const Eigen::VectorXcd& values, const Eigen::VectorXd& size,
+                                   const NoiseShapes& floors) {
   const Eigen::Index lines = values.size();
   if (lines < 6) return Eigen::VectorXd::Zero(lines);
-  // Sum of squares of (1, -4, 6, -4, 1) is 70.
+  // Fourth differences have the weights 1, -4, 6, -4, 1; the sum of their squares is 70.
   const Eigen::Index count = lines - 4;
   const Eigen::VectorXd square =
       (values.head(count) - 4.0 * values.segment(1, count) + 6.0 * values.segment(2, count) -
        4.0 * values.segment(3, count) + values.tail(count))
           .cwiseAbs2() /
       70;
-  const Eigen::VectorXd plain = windowed_mean(square);
-  const Eigen::VectorXd size_square = size.cwiseAbs2().array().max(1e-300);
-  const Eigen::VectorXd following =
-      windowed_mean(square.cwiseQuotient(size_square.segment(2, count))).cwiseProduct(size_square);
-  return likelihood(square, following.segment(2, count)) > likelihood(square, plain.segment(2, count))
-             ? following
-             : plain;
+  Eigen::VectorXd best;
+  double most = 0;
+  const auto try_shape = [&](const Eigen::VectorXd& shape) {
+    const Eigen::VectorXd v = shape.cwiseAbs2().array().max(1e-300);
+    const Eigen::VectorXd expected = (v.head(count) + 16 * v.segment(1, count) + 36 * v.segment(2, count) +
+                                      16 * v.segment(3, count) + v.tail(count)) /
+                                     70;
+    const Eigen::VectorXd level = windowed_mean(square.cwiseQuotient(expected));
+    const double likely = likelihood(square, level.segment(2, count).cwiseProduct(expected));
+    if (best.size() > 0 && !(likely > most)) return;
+    most = likely;
+    best = level.cwiseProduct(v);
+  };
+  for (const Eigen::VectorXd& floor : floors) try_shape(floor);
+  try_shape(size);
+  return best;
 }
 
-ResidualNoise residual_noise(const Eigen::VectorXcd& residual, const Eigen::VectorXd& size) {
+ResidualNoise residual_noise(const Eigen::VectorXcd& residual, const Eigen::VectorXd& size,
+                             const NoiseShapes& floors) {
   const Eigen::VectorXd square = residual.cwiseAbs2();
-  ResidualNoise noise{floor_and_share(square, size.cwiseAbs2()), running_mean(square)};
+  ResidualNoise noise;
+  noise.local = running_mean(square);
+  for (const Eigen::VectorXd& floor : floors) {
+    const Eigen::VectorXd smooth = likeliest_sum(square, floor.cwiseAbs2(), size.cwiseAbs2());
+    if (noise.smooth.size() == 0 || likelihood(square, smooth) > likelihood(square, noise.smooth))
+      noise.smooth = smooth;
+  }
   // Schwarz: each window is a parameter more.
   const auto lines = static_cast<double>(square.size());
   const double windows = lines / static_cast<double>(2 * kHalfWindow + 1);

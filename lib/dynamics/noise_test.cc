@@ -14,6 +14,10 @@ Eigen::VectorXcd white(Eigen::Index lines, double sigma) {
       lines, [&] { return std::complex<double>(normal(generator), normal(generator)); });
 }
 
+NoiseShapes floors_of(Eigen::Index lines) {
+  return floor_shapes(Eigen::VectorXd::LinSpaced(lines, 2, static_cast<double>(lines + 1)));
+}
+
 }  // namespace
 
 TEST_CASE("the variance of noise on a smooth curve is found within its window's scatter") {
@@ -23,7 +27,7 @@ TEST_CASE("the variance of noise on a smooth curve is found within its window's 
     values[i] *= 1 + 4 * x;
     values[i] += std::complex<double>(std::cos(9 * x), 1 / (0.05 + x));
   }
-  const Eigen::VectorXd variance = estimated_variance(values, values.cwiseAbs());
+  const Eigen::VectorXd variance = estimated_variance(values, values.cwiseAbs(), floors_of(4000));
   for (const Eigen::Index i : {100, 1000, 3000, 3990}) {
     const double expected = std::pow(0.02 * (1 + 4 * static_cast<double>(i) / 4000), 2);
     CHECK(variance[i] > 0.4 * expected);
@@ -49,9 +53,9 @@ TEST_CASE("noise that follows a sharp peak is told from a floor") {
   const double level = 0.01 * size.maxCoeff();
   // A window's median scatters by 30 %: the mean over some windows.
   const auto part = [](const Eigen::VectorXd& v) { return v.segment(900, 400).array(); };
-  const Eigen::VectorXd found = estimated_variance(following, size);
+  const Eigen::VectorXd found = estimated_variance(following, size, floors_of(2000));
   CHECK((part(found) / part(1e-4 * size.cwiseAbs2())).mean() == Approx(1).margin(0.25));
-  const Eigen::VectorXd floor = estimated_variance(level * noise, size);
+  const Eigen::VectorXd floor = estimated_variance(level * noise, size, floors_of(2000));
   CHECK(part(floor).mean() == Approx(level * level).epsilon(0.25));
 }
 
@@ -63,18 +67,35 @@ TEST_CASE("the variance of a residual is fitted as floor and share, or locally")
   for (const auto& [floor, share] : {std::pair(0.3, 0.0), std::pair(0.0, 0.02), std::pair(0.3, 0.02)}) {
     const Eigen::VectorXd truth = (floor * floor + share * share * size.array().square()).matrix();
     const Eigen::VectorXcd residual = noise.cwiseProduct(truth.cwiseSqrt().cast<std::complex<double>>());
-    const ResidualNoise noise_found = residual_noise(residual, size);
+    const ResidualNoise noise_found = residual_noise(residual, size, floors_of(4000));
     const Eigen::VectorXd& found = noise_found.smooth;
     CHECK_FALSE(noise_found.is_local);
     INFO(floor << ' ' << share);
-    CHECK((found.array() / truth.array()).minCoeff() > 0.8);
-    CHECK((found.array() / truth.array()).maxCoeff() < 1.25);
+    // The lowest lines alone say how steep a floor is.
+    CHECK((found.array() / truth.array()).tail(3950).minCoeff() > 0.8);
+    CHECK((found.array() / truth.array()).tail(3950).maxCoeff() < 1.25);
   }
   // Hum around some lines: neither of the two.
   Eigen::VectorXcd humming = noise;
   humming.segment(1000, 400) *= 10;
-  const ResidualNoise found = residual_noise(humming, Eigen::VectorXd::Ones(4000));
+  const ResidualNoise found = residual_noise(humming, Eigen::VectorXd::Ones(4000), floors_of(4000));
   CHECK(found.is_local);
   CHECK(found.local[1200] == Approx(100).epsilon(0.6));
   CHECK(found.local[3000] == Approx(1).epsilon(0.6));
+}
+
+TEST_CASE("a floor of the acceleration, or of the velocity, is recognised in the receptance") {
+  const Eigen::Index lines = 2000;
+  const NoiseShapes floors = floors_of(lines);
+  for (const std::size_t order : {1u, 2u}) {
+    const Eigen::VectorXcd noise = white(lines, 1).cwiseProduct(floors[order].cast<std::complex<double>>());
+    const Eigen::VectorXd truth = floors[order].cwiseAbs2();
+    const Eigen::VectorXd first = estimated_variance(noise, Eigen::VectorXd::Ones(lines), floors);
+    CHECK((first.array() / truth.array()).mean() == Approx(1).margin(0.25));
+    CHECK((first.array() / truth.array())[0] == Approx(1).margin(0.9));
+    const ResidualNoise found = residual_noise(noise, Eigen::VectorXd::Ones(lines), floors);
+    CHECK_FALSE(found.is_local);
+    CHECK((found.smooth.array() / truth.array()).minCoeff() > 0.8);
+    CHECK((found.smooth.array() / truth.array()).maxCoeff() < 1.25);
+  }
 }

@@ -21,7 +21,9 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr Eigen::Index kLeastLines = 8;
-constexpr double kNoFit = 0.5;  // relative error from which on modes explain nothing
+constexpr double kLeastReceptance = 1e-40,
+                 kLargestReceptance = 1e40;  // m/N; outside are errors of units or of a line
+constexpr double kNoFit = 0.5;               // relative error from which on modes explain nothing
 
 FitData group_data(const FrequencyResponse& measured, const DirectionGroup& group,
                    const std::vector<std::string>& dofs) {
@@ -60,11 +62,13 @@ std::vector<Eigen::VectorXd> known_variances(const FrequencyResponse& measured, 
   return result;
 }
 
-std::string percent(double share) {
+std::string printed(const char* format, double value) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
+  std::snprintf(text, sizeof text, format, value);
   return text;
 }
+
+std::string percent(double share) { return printed(share < 0.1 ? "%.2g %%" : "%.0f %%", 100 * share); }
 
 // Entries that the document does not have although it has both of their directions.
 std::string missing_entries(const FrequencyResponse& measured, const std::vector<std::string>& dofs) {
@@ -147,7 +151,7 @@ ModelCriterion criterion_of(const Searches& searches, const std::vector<double>&
     const auto modes = static_cast<double>(search.result().modes.size());
     criterion.modes += search.result().modes.size();
     criterion.parameters += modes * search.parameters_per_mode();
-    criterion.chi_square += search.result().chi_square;
+    criterion.chi_square += 2 * search.result().chi_square;
     criterion.bic += 2 * search.result().chi_square / inflation[g] +
                      modes * search.parameters_per_mode() * std::log(search.data().values());
   }
@@ -245,6 +249,13 @@ ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options)
     throw InvalidArgument("expected at least " + std::to_string(kLeastLines) +
                           " lines to fit modes to, not " + std::to_string(measured.frequency_hz.size()));
   }
+  for (const auto& entry : measured.entries) {
+    const double largest = entry.h.cwiseAbs().maxCoeff();
+    if (largest == 0 || (largest > kLeastReceptance && largest < kLargestReceptance)) continue;
+    throw InvalidArgument(entry.response + entry.reference +
+                          ": expected receptances of a usual size in m/N, not up to " +
+                          printed("%g", largest));
+  }
   const std::vector<Group> groups = groups_of(measured, options);
   ModalFit fit;
   fit.model.dofs = direction_names(measured);
@@ -265,7 +276,8 @@ ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options)
     fit.converged = fit.converged && part.result().converged;
     fit.limited_by_model = fit.limited_by_model || part.limited_by_model();
     chi_square += part.result().chi_square;
-    values += part.complex_values();
+    values += part.result().chi_square / part.reduced_chi_square();
+    fit.inflation = std::max(fit.inflation, part.inflation());
     for (const Curve& curve : part.data().curves) {
       const Eigen::VectorXcd error = curve_of(part.result().modes, curve, part.data().s) - curve.h;
       error_square += error.squaredNorm();
@@ -301,12 +313,12 @@ ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options)
     const std::string left = percent(fit.relative_error) + " of the curves";
     const bool restricted = fit.mode_model != ModeModel::kNonsymmetric;
     if (!options.modes && fit.relative_error > kNoFit) {
-      throw NoAnswer(restricted ? "modes of this model leave " + left + ": the structure is not like that"
-                                : "the modes found leave " + left +
-                                      ": is the low end of the band unusable (--band)?");
+      throw NoAnswer(restricted
+                         ? "modes of this model leave " + left + ": the structure is not like that"
+                         : "the modes found leave " + left + ": is a part of the band unusable (--band)?");
     }
-    fit.warnings.push_back("the residual is larger than the noise and not made of " +
-                           std::string(restricted ? "modes of this model" : "modes: the strongest") +
+    fit.warnings.push_back("the residual is larger than the noise, or not white: " +
+                           std::string(restricted ? "modes of this model" : "the strongest modes") +
                            " leave " + left);
   }
   if (fit.model.modes.empty()) throw NoAnswer("no mode stands out of the noise");

@@ -25,13 +25,13 @@ struct FitOptions {
   Progress progress;
 };
 
-/// One model's share in the choice: Schwarz' criterion 2 chi_square + parameters log(values), smaller is
-/// better. With a model error chi-square counts as much less as it exceeds the noise.
+/// One model's share in the choice: Schwarz' criterion chi_square / inflation + parameters log(values),
+/// smaller is better.
 struct ModelCriterion {
   ModeModel model = ModeModel::kNonsymmetric;
   std::size_t modes = 0;
   double parameters = 0;
-  double chi_square = 0;
+  double chi_square = 0;  ///< sum over real and imaginary parts of squares over their variance
   double bic = 0;
 };
 
@@ -52,12 +52,15 @@ struct ModalFit {
   ModalModel model;  ///< modes by frequency; out of band marked; with its covariance
   ModeModel mode_model = ModeModel::kNonsymmetric;
   std::vector<ModelCriterion> criteria;  ///< of the models that were tried
+  /// How many times less the residual tells than its length, 1 for white noise of the expected size: standard
+  /// deviations are widened by its root. The largest of the groups.
+  double inflation = 1;
   std::optional<Reciprocity> reciprocity;
   std::vector<FitData> data;  ///< the curves of each independent group, as they were weighted
   std::vector<CurveFit> curves;
-  double relative_error = 0;  ///< over all curves together
-  double reduced_chi_square = 0;
-  bool variance_given = false;  ///< the noise came with the measurement; otherwise it was estimated from it
+  double relative_error = 0;      ///< over all curves together
+  double reduced_chi_square = 0;  ///< mean over the values less the parameters
+  bool variance_given = false;    ///< the noise came with the measurement; otherwise it was estimated from it
   /// The residual is larger than the noise: selection stopped at the model error, not at the noise.
   bool limited_by_model = false;
   bool converged = false;

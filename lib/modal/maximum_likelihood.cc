@@ -18,7 +18,7 @@ using Complex = std::complex<double>;
 // Bounds: of -Re lambda / Im lambda, and of Im lambda in units of the highest line. What stands for modes far
 // above the band looks nearly the same from three times the band on, and would only be dear to follow through
 // a cut.
-constexpr double kLeastRatio = 1e-6, kLargestRatio = 3;
+constexpr double kLeastRatio = 1e-6, kLargestRatio = 20;
 constexpr double kLeastRate = 1e-5, kLargestRate = 3;
 // Least squares depend on the long residual r and its Jacobian J only through J^T J, J^T r and |r|^2. So the
 // solver gets a short equivalent: with U^T U = J^T J the residual (U^-T J^T r, rest) and the Jacobian (U, 0).

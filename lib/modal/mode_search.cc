@@ -19,8 +19,10 @@ constexpr int kRelocations = 8;
 constexpr int kRelocationsAfterPruning = 2;
 // Of refinements: the first, of many candidates; those that only have to tell whether a mode pays; between
 // changes of the weights; and the last.
-constexpr Effort kFirst{24, 0.1}, kRemoval{12, 0.1}, kAddition{24, 0.1}, kBetween{60, 0.01}, kLast{240, 1e-5};
+constexpr Effort kFirst{24, 0.1}, kRemoval{40, 0.1}, kAddition{40, 0.1}, kBetween{60, 0.01}, kLast{240, 1e-5};
 constexpr int kRescues = 3;
+constexpr std::size_t kRemovalTrials = 4;
+constexpr double kOtherNoise = 4;     // times a variance, from which on modes are weighed again
 constexpr double kBeyondDoubt = 100;  // times the price
 // Weights never claim less noise than these shares of the value, and than a part of that of the curve's RMS.
 // Computed receptances have no noise at all, and rounding must not decide the number of modes; the coarse
@@ -31,7 +33,9 @@ constexpr double kRmsShare = 0.01;
 // Misfit over noise from which on the noise is not what limits the fit.
 constexpr double kModelErrorFactor = 1.5;
 // The same for a noise that is taken from the misfit itself, when that turns out not to be white.
-constexpr double kLargestInflation = 1.6;
+constexpr double kLargestInflation = 1.6, kInflationOfFewLines = 30;
+// Distance of two poles, of the smaller half width, below which they are at one place.
+constexpr double kOnePole = 0.5;
 // Where the model cannot reach the noise (a nonlinear joint, hysteretic damping, a leaking window), the
 // residual is not made of modes. Above this relative error a mode has to take away the lesser share of the
 // residual to be one, below it the larger.
@@ -50,9 +54,10 @@ ModeSearch::ModeSearch(FitData data, std::vector<Eigen::VectorXd> variance, std:
       estimate_noise_(variance_.empty()),
       wanted_modes_(wanted_modes),
       floor_(kCoarseFloor) {
+  floors_ = floor_shapes(data_.s.imag());
   if (estimate_noise_) {
     for (const Curve& curve : data_.curves)
-      variance_.push_back(estimated_variance(curve.h, curve.h.cwiseAbs()));
+      variance_.push_back(estimated_variance(curve.h, curve.h.cwiseAbs(), floors_));
   }
   set_weights();
 }
@@ -76,7 +81,7 @@ void ModeSearch::run(const Progress& progress) {
   } else if (estimate_noise_) {
     const std::vector<Eigen::VectorXd> seen = variance_;
     settle_noise();
-    if (inflation_of(current_) > kLargestInflation) {
+    if (!is_white() || is_crowded()) {
       variance_ = seen;
       build_up();
     }
@@ -84,8 +89,10 @@ void ModeSearch::run(const Progress& progress) {
   current_ = refined(current_.modes, kLast);
 }
 
-// A few modes may have been overlooked; if it is not that, there is no use in weighing modes against noise.
+// The first refinement may have been stopped, and a few modes may have been overlooked; if it is not that,
+// there is no use in weighing modes against noise.
 void ModeSearch::rescue() {
+  if (exceeds_noise()) current_ = refined(current_.modes, kLast);
   for (int attempt = 0; attempt < kRescues && exceeds_noise() && add_mode(); ++attempt) {
   }
 }
@@ -113,7 +120,7 @@ void ModeSearch::reweight() {
   for (std::size_t e = 0; e < data_.curves.size(); ++e) {
     const Curve& curve = data_.curves[e];
     const Eigen::VectorXcd model = curve_of(current_.modes, curve, data_.s);
-    variance_[e] = estimated_variance(model - curve.h, model.cwiseAbs());
+    variance_[e] = estimated_variance(model - curve.h, model.cwiseAbs(), floors_);
   }
   set_weights();
   current_ = refined(current_.modes, kBetween);
@@ -126,17 +133,20 @@ void ModeSearch::settle_noise() {
   for (const bool local_allowed : {false, true}) {
     const double parameters = parameters_per_mode() * static_cast<double>(current_.modes.size());
     const double correction = data_.values() / std::max(data_.values() - parameters, 1.0);
-    bool local = false;
+    bool local = false, changed = false;
     for (std::size_t e = 0; e < data_.curves.size(); ++e) {
       const Curve& curve = data_.curves[e];
       const Eigen::VectorXcd model = curve_of(current_.modes, curve, data_.s);
-      const ResidualNoise noise = residual_noise(model - curve.h, model.cwiseAbs());
-      variance_[e] = correction * (local_allowed && noise.is_local ? noise.local : noise.smooth);
+      const ResidualNoise noise = residual_noise(model - curve.h, model.cwiseAbs(), floors_);
+      const Eigen::VectorXd now = correction * (local_allowed && noise.is_local ? noise.local : noise.smooth);
+      changed = changed || (now.array() > kOtherNoise * variance_[e].array()).any() ||
+                (variance_[e].array() > kOtherNoise * now.array()).any();
+      variance_[e] = now;
       local = local || noise.is_local;
     }
     set_weights();
     current_ = refined(current_.modes, kBetween);
-    select();
+    if (changed) select();
     if (!local) return;
   }
 }
@@ -148,10 +158,32 @@ RefinedModes ModeSearch::refined(const std::vector<Mode>& modes, const Effort& e
 void ModeSearch::change_model(ModeModel model) {
   model_ = model;
   current_ = refined(current_.modes, kLast);
+  if (!exceeds_noise()) {
+    select();  // each has its own price
+    current_ = refined(current_.modes, kLast);
+  }
   limited_by_model_ = limited_by_model_ || exceeds_noise();
 }
 
 bool ModeSearch::exceeds_noise() const { return current_.chi_square / complex_values() > kModelErrorFactor; }
+
+// Whether a residual can be noise, as far as so many lines can tell.
+bool ModeSearch::is_white() const {
+  return inflation_of(current_) <
+         kLargestInflation + kInflationOfFewLines / static_cast<double>(data_.lines());
+}
+
+// More modes at one pole than there are directions: they stand for something else.
+bool ModeSearch::is_crowded() const {
+  for (const Mode& mode : current_.modes) {
+    const Complex pole = mode.pole();
+    const auto near = std::count_if(current_.modes.begin(), current_.modes.end(), [&](const Mode& other) {
+      return std::abs(other.pole() - pole) < kOnePole * std::min(-other.pole().real(), -pole.real());
+    });
+    if (near > data_.dofs) return true;
+  }
+  return false;
+}
 
 // Whether the floor, not the noise, decides some weights.
 bool ModeSearch::floor_matters() const {
@@ -180,6 +212,18 @@ void ModeSearch::build_up() {
   set_weights();
   current_ = refined({}, kFirst);
   select();
+  // It may have been the way to the noise that failed, not the model.
+  const RefinedModes strongest = current_;
+  limited_by_model_ = false;
+  set_weights();
+  current_ = refined(strongest.modes, kLast);
+  if (!exceeds_noise() && is_white()) {
+    select();
+    return;
+  }
+  limited_by_model_ = true;
+  set_weights();
+  current_ = strongest;
 }
 
 // |model - h| / |h|, root mean square over the curves.
@@ -208,14 +252,24 @@ double ModeSearch::parameters_per_mode() const {
   return static_cast<double>(model_ == ModeModel::kNonsymmetric ? all - 2 * hidden : all);
 }
 
+double ModeSearch::reduced_chi_square() const {
+  const double parameters = parameters_per_mode() * static_cast<double>(current_.modes.size());
+  return current_.chi_square / std::max(complex_values() - parameters / 2, 1.0);
+}
+
+double ModeSearch::inflation() const {
+  return limited_by_model_ ? inflation_of(current_) : std::max(1.0, reduced_chi_square());
+}
+
 double ModeSearch::inflation_of(const RefinedModes& modes) const {
-  double length = 0;
+  double length = 0, curves = 0;
   for (const Curve& curve : data_.curves) {
+    if (curve.h.isZero(0)) continue;
     const Eigen::VectorXcd residual = curve_of(modes.modes, curve, data_.s) - curve.h;
     length += correlation_length(curve.weight.cwiseSqrt().cwiseProduct(residual));
+    ++curves;
   }
-  return std::max(1.0, modes.chi_square / complex_values()) * length /
-         static_cast<double>(data_.curves.size());
+  return std::max(1.0, modes.chi_square / complex_values()) * length / curves;
 }
 
 // Chi-square that a mode must take away: half its real parameters times the log of the number of values
@@ -292,7 +346,8 @@ void ModeSearch::remove_modes() {
              std::pair(!is_too_narrow(current_.modes[b]), loss(b));
     });
     bool removed = false;
-    for (std::size_t attempt = 0; attempt < std::min<std::size_t>(3, order.size()) && !removed; ++attempt) {
+    for (std::size_t attempt = 0; attempt < std::min<std::size_t>(kRemovalTrials, order.size()) && !removed;
+         ++attempt) {
       removed = remove_if_worthless(order[attempt]);
     }
     if (!removed) return;

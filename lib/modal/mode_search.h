@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "dynamics/noise.h"
 #include "modal/fit_data.h"
 #include "modal/maximum_likelihood.h"
 
@@ -38,8 +39,11 @@ class ModeSearch {
   /// Free real parameters of one mode, of those that some curve shows.
   double parameters_per_mode() const;
   /// How many times less the residual tells than its length: 1 where it is the noise, which is white; more
-  /// where it is larger, or smooth over lines.
-  double inflation() const { return limited_by_model_ ? inflation_of(current_) : 1; }
+  /// where it is larger than a noise that was given, or limited by a model error also where it is smooth over
+  /// lines.
+  double inflation() const;
+  /// Sum of |model - h|^2 / variance over the number of values less the parameters: 1 when noise is left.
+  double reduced_chi_square() const;
 
  private:
   void rescue();
@@ -49,6 +53,8 @@ class ModeSearch {
   RefinedModes refined(const std::vector<Mode>& modes, const Effort& effort) const;
   double inflation_of(const RefinedModes& modes) const;
   bool exceeds_noise() const;
+  bool is_white() const;
+  bool is_crowded() const;
   bool floor_matters() const;
   void tighten();
   void build_up();
@@ -66,6 +72,7 @@ class ModeSearch {
 
   FitData data_;
   std::vector<Eigen::VectorXd> variance_;  // of the noise, per curve
+  NoiseShapes floors_;
   ModeModel model_ = ModeModel::kNonsymmetric;
   bool estimate_noise_;
   std::optional<int> wanted_modes_;

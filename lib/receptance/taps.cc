@@ -36,7 +36,8 @@ Taps taps_of(const FrequencyResponse& measured, const Eigen::VectorXd& frequency
   if (frf.frequency_hz.size() == 0) throw InvalidArgument("no line above 0 Hz");
   for (auto& entry : frf.entries) {
     entry.variance = known_variance(entry);
-    if (entry.variance.size() == 0) entry.variance = estimated_variance(entry.h, entry.h.cwiseAbs());
+    if (entry.variance.size() == 0)
+      entry.variance = estimated_variance(entry.h, entry.h.cwiseAbs(), floor_shapes(frf.frequency_hz));
   }
   frf = on_lines(frf, frequency_hz);
   Taps taps;
