@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "milling/multiplier_lanes.h"
 #include "milling/multipliers.h"
 
 namespace stablecut {
@@ -16,6 +17,10 @@ using Complex = std::complex<double>;
 constexpr double kRealMultiplier = 1e-7;
 
 constexpr double kMostHarmonics = 20000;
+
+// Rows of a map, in states of the structure, from which on a reduction that stops early beats the eigenvalues
+// of several maps side by side.
+constexpr double kLongCut = 4;
 
 // By inverse iteration from a start without preference, next to the eigenvalue.
 Eigen::VectorXcd eigenvector(const Eigen::MatrixXd& matrix, Complex value) {
@@ -29,8 +34,26 @@ Eigen::VectorXcd eigenvector(const Eigen::MatrixXd& matrix, Complex value) {
 
 }  // namespace
 
+std::vector<Eigen::VectorXcd> leading_multipliers(const PeriodMap& map, const std::vector<double>& depths_m) {
+  std::vector<Eigen::MatrixXd> maps;
+  for (const double depth : depths_m) maps.push_back(map.monodromy(depth));
+  const Eigen::Index states = 2 * map.structure().modes();
+  if (maps.size() > 1 && static_cast<double>(maps.front().rows()) < kLongCut * static_cast<double>(states))
+    return eigenvalues_of_each(maps);
+  std::vector<Eigen::VectorXcd> values;
+  for (Eigen::MatrixXd& matrix : maps) values.push_back(leading_eigenvalues(std::move(matrix), states));
+  return values;
+}
+
 double spectral_radius(const PeriodMap& map, double depth_m) {
-  return largest_modulus(map.monodromy(depth_m), 2 * map.structure().modes());
+  return spectral_radii(map, {depth_m}).front();
+}
+
+std::vector<double> spectral_radii(const PeriodMap& map, const std::vector<double>& depths_m) {
+  std::vector<double> radii;
+  for (const Eigen::VectorXcd& values : leading_multipliers(map, depths_m))
+    radii.push_back(values.cwiseAbs().maxCoeff());
+  return radii;
 }
 
 CriticalMultiplier critical_multiplier(const PeriodMap& map, double depth_m) {

@@ -41,8 +41,13 @@ class PeriodMap {
   double period_s_;
 };
 
-/// Largest modulus among the eigenvalues of the monodromy matrix.
+/// The leading multipliers at each depth, those from three quarters of the largest on and perhaps others; of
+/// complex pairs at least the one above the real axis. Throws InvalidArgument when a map is not finite.
+std::vector<Eigen::VectorXcd> leading_multipliers(const PeriodMap& map, const std::vector<double>& depths_m);
+
+/// Largest modulus among the multipliers, at one depth and at each of several.
 double spectral_radius(const PeriodMap& map, double depth_m);
+std::vector<double> spectral_radii(const PeriodMap& map, const std::vector<double>& depths_m);
 
 /// How the multiplier leaves the unit circle: a complex pair, through -1, or through +1.
 enum class Instability { kHopf, kFlip, kFold };

@@ -42,14 +42,6 @@ struct StabilityLimit {
   CriticalMultiplier critical;
 };
 
-/// The lowest depth in (0, largest_depth_m] at which the cut loses stability, to 1e-9 of the largest depth,
-/// or nothing. Searched on a ladder of depths, `known_depths_m` (increasing, with their radii) among them;
-/// between rungs (a 16th of the depth apart, or a 64th to a 512th of the largest) a hump that may reach 1 is
-/// climbed. A hump narrower than a rung that shows at neither end is missed.
-std::optional<StabilityLimit> lowest_limit(const PeriodMap& map, double largest_depth_m,
-                                           const std::vector<double>& known_depths_m,
-                                           const Eigen::VectorXd& known_radii);
-
 struct StabilityChart {
   Eigen::MatrixXd spectral_radius;  ///< [depths x speeds], of one tooth period; empty if unasked
   std::vector<std::optional<StabilityLimit>> limit;  ///< [speeds]

@@ -200,7 +200,6 @@ constexpr double kTried = 0.1, kIgnored = 0.4;
 constexpr Eigen::Index kNextStop = 2;  // columns between a stop and the next
 constexpr double kAgreement = 1e-11;   // of two stops, at which both are right
 constexpr double kUnsettled = 1e-3;    // from which on values cannot be followed
-constexpr double kRivals = 0.75;       // share of the largest modulus from which on values are followed
 constexpr int kNewtonSteps = 3;
 constexpr double kWorthStopping = 0.75;  // share of the rows from which on the whole costs as little
 
@@ -312,10 +311,10 @@ Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) {
   return hessenberg_eigenvalues(reduction.reduced(matrix.rows()));
 }
 
-double largest_modulus(Eigen::MatrixXd a, Eigen::Index states) {
+Eigen::VectorXcd leading_eigenvalues(Eigen::MatrixXd a, Eigen::Index states) {
   check_finite(a);
   const Eigen::Index n = a.rows(), rest = n - states;
-  if (n == 1) return std::abs(a(0, 0));
+  if (n == 1) return a.cast<std::complex<double>>();
   const double out = a.topRightCorner(states, rest).norm(), back = a.bottomLeftCorner(rest, states).norm();
   if (out > 0 && back > 0) {
     const double ratio = std::sqrt(back / out);
@@ -333,28 +332,27 @@ double largest_modulus(Eigen::MatrixXd a, Eigen::Index states) {
       continue;
     // Follow the largest and its rivals; where they still move much, or there are none, look at all again.
     double change = found.empty() ? kUnsettled : 0;
-    double largest = 0;
     for (auto& value : found) {
       const auto now = followed(reduction.reduced(size), value);
       const double moved = std::abs(now - value) / std::max(1.0, std::abs(now));
       change = std::max(change, std::isfinite(moved) ? moved : kUnsettled);
-      largest = std::max(largest, std::abs(now));
       value = now;
     }
-    if (change <= kAgreement) return largest;
+    if (change <= kAgreement)
+      return Eigen::Map<const Eigen::VectorXcd>(found.data(), static_cast<Eigen::Index>(found.size()));
     stopped = size;
     if (change < kUnsettled) continue;
     found.clear();
     const double left = reduction.norm_left(size);
     if (left > kTried * reduction.reduced(size).norm()) continue;
     const Eigen::VectorXcd values = hessenberg_eigenvalues(reduction.reduced(size));
-    largest = values.cwiseAbs().maxCoeff();
+    const double largest = values.cwiseAbs().maxCoeff();
     if (left > kIgnored * largest) continue;
     for (const auto& value : values) {
-      if (value.imag() >= 0 && std::abs(value) >= kRivals * largest) found.push_back(value);
+      if (value.imag() >= 0 && std::abs(value) >= kLeading * largest) found.push_back(value);
     }
   }
-  return hessenberg_eigenvalues(reduction.reduced(n)).cwiseAbs().maxCoeff();
+  return hessenberg_eigenvalues(reduction.reduced(n));
 }
 
 }  // namespace stablecut

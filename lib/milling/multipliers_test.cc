@@ -6,6 +6,8 @@
 #include <random>
 #include <vector>
 
+#include "milling/multiplier_lanes.h"
+
 using namespace stablecut;
 using Complex = std::complex<double>;
 
@@ -42,6 +44,26 @@ TEST_CASE("eigenvalues of random matrices are those of the Schur form") {
   }
 }
 
+TEST_CASE("matrices side by side have the eigenvalues of each alone") {
+  std::mt19937_64 generator(4);
+  std::normal_distribution<double> normal;
+  for (const int n : {1, 2, 3, 5, 21, 47}) {
+    for (const std::size_t count : {1U, 8U, 11U}) {
+      std::vector<Eigen::MatrixXd> matrices;
+      for (std::size_t i = 0; i < count; ++i) {
+        matrices.push_back(Eigen::MatrixXd::NullaryExpr(n, n, [&] { return normal(generator); }));
+        // Blocks that part early.
+        if (i % 3 == 1) matrices.back().bottomLeftCorner(n / 2, n - n / 2).setZero();
+      }
+      const auto values = eigenvalues_of_each(matrices);
+      REQUIRE(values.size() == count);
+      for (std::size_t i = 0; i < count; ++i)
+        CHECK(mismatch(values[i], eigenvalues(matrices[i])) < 1e-11 * (1 + matrices[i].norm()));
+    }
+  }
+  CHECK(eigenvalues_of_each({}).empty());
+}
+
 TEST_CASE("rotations, zero, identity, companion and permutation matrices") {
   Eigen::Matrix3d cycle;
   cycle << 0, 0, 1, 1, 0, 0, 0, 1, 0;
@@ -65,7 +87,7 @@ TEST_CASE("the largest modulus: early stops agree with all eigenvalues") {
   for (const Eigen::Index n : {1, 2, 3, 12, 40}) {
     for (int trial = 0; trial < 20; ++trial) {
       const Eigen::MatrixXd matrix = random(n, n);
-      CHECK(largest_modulus(matrix, (n + 1) / 2) ==
+      CHECK(leading_eigenvalues(matrix, (n + 1) / 2).cwiseAbs().maxCoeff() ==
             Approx(eigenvalues(matrix).cwiseAbs().maxCoeff()).epsilon(1e-11).margin(1e-12));
     }
   }
@@ -83,8 +105,9 @@ TEST_CASE("the largest modulus: early stops agree with all eigenvalues") {
     const double expected = eigenvalues(matrix).cwiseAbs().maxCoeff();
     matrix.topRightCorner(states, n - states) *= 1e-6;
     matrix.bottomLeftCorner(n - states, states) *= 1e6;
-    CHECK(largest_modulus(matrix, states) == Approx(expected).epsilon(1e-10));
+    CHECK(leading_eigenvalues(matrix, states).cwiseAbs().maxCoeff() == Approx(expected).epsilon(1e-10));
   }
-  CHECK(largest_modulus(Eigen::MatrixXd::Zero(5, 5), 2) == 0);
-  CHECK(largest_modulus(Eigen::MatrixXd::Identity(9, 9), 4) == Approx(1).epsilon(1e-14));
+  CHECK(leading_eigenvalues(Eigen::MatrixXd::Zero(5, 5), 2).cwiseAbs().maxCoeff() == 0);
+  CHECK(leading_eigenvalues(Eigen::MatrixXd::Identity(9, 9), 4).cwiseAbs().maxCoeff() ==
+        Approx(1).epsilon(1e-14));
 }

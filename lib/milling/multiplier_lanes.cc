@@ -1,0 +1,291 @@
+#include "milling/multiplier_lanes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+#include "base/error.h"
+#include "base/wide.h"
+#include "milling/multipliers.h"
+
+namespace stablecut {
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr int kPatience = 60;  // sweeps for one eigenvalue
+
+STABLECUT_INLINE Lanes absolute(const Lanes& x) { return x < 0.0 ? -x : x; }
+STABLECUT_INLINE Lanes square_root(const Lanes& x) {
+  Lanes result;
+  for (int l = 0; l < kLanes; ++l) result[l] = __builtin_sqrt(x[l]);
+  return result;
+}
+// |size| with the sign of `like`.
+STABLECUT_INLINE Lanes with_sign(const Lanes& size, const Lanes& like) { return like < 0.0 ? -size : size; }
+
+// n x n matrices in lanes, row by row, with two rows and columns of zeros after them.
+struct LaneMatrix {
+  explicit LaneMatrix(Eigen::Index size)
+      : n(size), stride((size + 2) * kLanes), data(Eigen::VectorXd::Zero((size + 2) * stride)) {}
+  double* row(Eigen::Index i) { return data.data() + i * stride; }
+  double at(Eigen::Index i, Eigen::Index j, Eigen::Index lane) const {
+    return data[i * stride + j * kLanes + lane];
+  }
+
+  Eigen::Index n, stride;
+  Eigen::VectorXd data;
+};
+
+// Householder reduction of all lanes to Hessenberg form. v and w hold n lanes.
+STABLECUT_WIDE void reduce_to_hessenberg(double* h, Eigen::Index n, Eigen::Index stride, double* v,
+                                         double* w) {
+  for (Eigen::Index k = 0; k + 2 < n; ++k) {
+    Lanes square{};
+    for (Eigen::Index i = k + 1; i < n; ++i) {
+      const Lanes x = load_lanes(h + i * stride + k * kLanes);
+      store_lanes(x, v + i * kLanes);
+      square += x * x;
+    }
+    const Lanes first = load_lanes(v + (k + 1) * kLanes);
+    const Lanes norm = with_sign(square_root(square), first);
+    const Lanes pivot = first + norm;
+    store_lanes(pivot, v + (k + 1) * kLanes);
+    // I - v v^T / (norm pivot); nothing where the column is zero.
+    const Lanes product = norm * pivot;
+    const Lanes factor = product == 0.0 ? Lanes{} : 1.0 / product;
+    for (Eigen::Index j = k; j < n; ++j) store_lanes(Lanes{}, w + j * kLanes);
+    for (Eigen::Index i = k + 1; i < n; ++i) {
+      const Lanes x = load_lanes(v + i * kLanes);
+      const double* row = h + i * stride;
+      for (Eigen::Index j = k; j < n; ++j)
+        store_lanes(load_lanes(w + j * kLanes) + x * load_lanes(row + j * kLanes), w + j * kLanes);
+    }
+    for (Eigen::Index i = k + 1; i < n; ++i) {
+      const Lanes x = factor * load_lanes(v + i * kLanes);
+      double* row = h + i * stride;
+      for (Eigen::Index j = k; j < n; ++j)
+        store_lanes(load_lanes(row + j * kLanes) - x * load_lanes(w + j * kLanes), row + j * kLanes);
+    }
+    for (Eigen::Index i = 0; i < n; ++i) {
+      double* row = h + i * stride;
+      Lanes sum{};
+      for (Eigen::Index j = k + 1; j < n; ++j)
+        sum += load_lanes(row + j * kLanes) * load_lanes(v + j * kLanes);
+      sum *= factor;
+      for (Eigen::Index j = k + 1; j < n; ++j)
+        store_lanes(load_lanes(row + j * kLanes) - sum * load_lanes(v + j * kLanes), row + j * kLanes);
+    }
+  }
+}
+
+// Sums of the entries' absolute values, into kLanes numbers.
+STABLECUT_WIDE void absolute_sums(const double* h, Eigen::Index entries, double* sums) {
+  Lanes sum{};
+  for (Eigen::Index i = 0; i < entries; ++i) sum += absolute(load_lanes(h + i * kLanes));
+  store_lanes(sum, sums);
+}
+
+// One double-shift sweep of each lane's block [low, high] (inactive where high < low), from the sums and
+// products of its shifts, over the rows and columns from `first` to `last`.
+STABLECUT_WIDE void sweep(double* h, Eigen::Index stride, Eigen::Index first, Eigen::Index last,
+                          const double* lows, const double* highs, const double* shift_sums,
+                          const double* shift_products) {
+  const Lanes low = load_lanes(lows), high = load_lanes(highs);
+  const Lanes shift_sum = load_lanes(shift_sums), shift_product = load_lanes(shift_products);
+  const auto at = [&](Eigen::Index i, Eigen::Index j) { return h + i * stride + j * kLanes; };
+  for (Eigen::Index k = first; k < last; ++k) {
+    const Lanes here = Lanes{} + static_cast<double>(k);
+    // Where the block begins: first column of (H - s1)(H - s2); after it what the bulge left below column k
+    // - 1.
+    const Lanes a = load_lanes(at(k, k)), b = load_lanes(at(k + 1, k + 1)), below = load_lanes(at(k + 1, k));
+    const Lanes safe = below == 0.0 ? Lanes{} + 1.0 : below;
+    const auto starts = here == low;
+    const Lanes left0 = k > 0 ? load_lanes(at(k, k - 1)) : Lanes{};
+    const Lanes left1 = k > 0 ? load_lanes(at(k + 1, k - 1)) : Lanes{};
+    const Lanes left2 = k > 0 ? load_lanes(at(k + 2, k - 1)) : Lanes{};
+    Lanes p = starts ? (a * (a - shift_sum) + shift_product) / safe + load_lanes(at(k, k + 1)) : left0;
+    Lanes q = starts ? a + b - shift_sum : left1;
+    Lanes r = starts ? load_lanes(at(k + 2, k + 1)) : left2;
+    r = here + 2.0 <= high ? r : Lanes{};
+    const Lanes size = absolute(p) + absolute(q) + absolute(r);
+    const auto inside = (here >= low) & (here < high) & (size > 0.0);
+    const Lanes inverse = 1.0 / (inside ? size : Lanes{} + 1.0);
+    p = inside ? p * inverse : Lanes{} + 1.0;
+    q = inside ? q * inverse : Lanes{};
+    r = inside ? r * inverse : Lanes{};
+    const Lanes norm = with_sign(square_root(p * p + q * q + r * r), p);
+    if (k > first) {
+      const auto chases = inside & (here > low);
+      store_lanes(chases ? -norm * size : left0, at(k, k - 1));
+      store_lanes(chases ? Lanes{} : left1, at(k + 1, k - 1));
+      const auto deep = chases & (here + 2.0 <= high);
+      store_lanes(deep ? Lanes{} : left2, at(k + 2, k - 1));
+    }
+    p += norm;
+    const Lanes by_norm = 1.0 / norm, by_p = 1.0 / p;
+    const Lanes x = inside ? p * by_norm : Lanes{}, y = inside ? q * by_norm : Lanes{},
+                z = inside ? r * by_norm : Lanes{};
+    q *= by_p;
+    r *= by_p;
+    double *row0 = at(k, 0), *row1 = at(k + 1, 0), *row2 = at(k + 2, 0);
+    for (Eigen::Index j = k * kLanes; j <= last * kLanes; j += kLanes) {
+      const Lanes u0 = load_lanes(row0 + j), u1 = load_lanes(row1 + j), u2 = load_lanes(row2 + j);
+      const Lanes sum = u0 + q * u1 + r * u2;
+      store_lanes(u0 - sum * x, row0 + j);
+      store_lanes(u1 - sum * y, row1 + j);
+      store_lanes(u2 - sum * z, row2 + j);
+    }
+    const Eigen::Index deepest = std::min(last, k + 3);
+    for (Eigen::Index i = first; i <= deepest; ++i) {
+      double* entry = at(i, k);
+      const Lanes u0 = load_lanes(entry), u1 = load_lanes(entry + kLanes),
+                  u2 = load_lanes(entry + 2 * kLanes);
+      const Lanes sum = x * u0 + y * u1 + z * u2;
+      store_lanes(u0 - sum, entry);
+      store_lanes(u1 - sum * q, entry + kLanes);
+      store_lanes(u2 - sum * r, entry + 2 * kLanes);
+    }
+  }
+}
+
+// The QR iteration of one lane: its active block, and what has been found.
+struct LaneProgress {
+  Eigen::Index low = 0, high = 0;
+  int sweeps = 0;
+  bool stuck = false;
+  std::vector<std::complex<double>> found;
+};
+
+class LaneQr {
+ public:
+  explicit LaneQr(LaneMatrix& h) : h_(h) {
+    absolute_sums(h.data.data(), h.data.size() / kLanes, norm_.data());
+    for (LaneProgress& own : progress_) {
+      own.high = h.n - 1;
+      own.found.reserve(static_cast<std::size_t>(h.n));
+    }
+  }
+
+  // The eigenvalues of each lane; none where a block does not converge.
+  const std::array<LaneProgress, kLanes>& run() {
+    while (true) {
+      Eigen::Index first = h_.n, last = -1;
+      alignas(64) double low[kLanes], high[kLanes], sum[kLanes], product[kLanes];
+      for (Eigen::Index lane = 0; lane < kLanes; ++lane) {
+        LaneProgress& own = progress_[static_cast<std::size_t>(lane)];
+        deflate(own, lane);
+        low[lane] = static_cast<double>(own.low);
+        high[lane] = static_cast<double>(own.high);
+        sum[lane] = product[lane] = 0;
+        if (own.high < 0) continue;
+        first = std::min(first, own.low);
+        last = std::max(last, own.high);
+        shifts(own, lane, sum[lane], product[lane]);
+      }
+      if (last < 0) break;
+      sweep(h_.data.data(), h_.stride, first, last, low, high, sum, product);
+    }
+    return progress_;
+  }
+
+ private:
+  // Takes off what has converged at the end of the active block.
+  void deflate(LaneProgress& own, Eigen::Index lane) {
+    while (own.high >= 0) {
+      own.low = find_split(own.high, lane);
+      if (own.low == own.high) {
+        own.found.emplace_back(h_.at(own.high, own.high, lane), 0.0);
+        own.high -= 1;
+      } else if (own.low == own.high - 1) {
+        two_values(own, lane);
+        own.high -= 2;
+      } else {
+        break;
+      }
+      own.sweeps = 0;
+    }
+    if (own.high >= 0 && ++own.sweeps > kPatience) {
+      own.stuck = true;
+      own.high = -1;
+    }
+    if (own.high < 0) own.low = 0;
+  }
+
+  Eigen::Index find_split(Eigen::Index high, Eigen::Index lane) {
+    for (Eigen::Index l = high; l > 0; --l) {
+      double size = std::abs(h_.at(l - 1, l - 1, lane)) + std::abs(h_.at(l, l, lane));
+      if (size == 0) size = norm_[static_cast<std::size_t>(lane)];
+      if (std::abs(h_.at(l, l - 1, lane)) <= kEpsilon * size) return l;
+    }
+    return 0;
+  }
+
+  void two_values(LaneProgress& own, Eigen::Index lane) {
+    const Eigen::Index i = own.high - 1, j = own.high;
+    const double a = h_.at(i, i, lane), d = h_.at(j, j, lane), bc = h_.at(i, j, lane) * h_.at(j, i, lane);
+    const double half = (a - d) / 2, discriminant = half * half + bc;
+    if (discriminant < 0) {
+      own.found.emplace_back(d + half, std::sqrt(-discriminant));
+      own.found.push_back(std::conj(own.found.back()));
+    } else {
+      const double larger = half + std::copysign(std::sqrt(discriminant), half);  // no cancellation
+      own.found.emplace_back(d + larger, 0.0);
+      own.found.emplace_back(larger == 0 ? d : d - bc / larger, 0.0);
+    }
+  }
+
+  // The eigenvalues of the last 2x2 block, or something else when stuck.
+  void shifts(const LaneProgress& own, Eigen::Index lane, double& sum, double& product) const {
+    const Eigen::Index i = own.high - 1, j = own.high;
+    sum = h_.at(i, i, lane) + h_.at(j, j, lane);
+    product = h_.at(i, i, lane) * h_.at(j, j, lane) - h_.at(i, j, lane) * h_.at(j, i, lane);
+    if (own.sweeps % 10 != 0) return;
+    const double size = std::abs(h_.at(j, i, lane)) + std::abs(h_.at(i, i - 1, lane));
+    sum = 1.5 * size;
+    product = size * size;
+  }
+
+  LaneMatrix& h_;
+  std::array<LaneProgress, kLanes> progress_;
+  std::array<double, kLanes> norm_{};
+};
+
+}  // namespace
+
+std::vector<Eigen::VectorXcd> eigenvalues_of_each(const std::vector<Eigen::MatrixXd>& matrices) {
+  std::vector<Eigen::VectorXcd> result;
+  if (matrices.empty()) return result;
+  const Eigen::Index n = matrices.front().rows();
+  Eigen::VectorXd work(2 * n * kLanes);
+  for (std::size_t first = 0; first < matrices.size(); first += kLanes) {
+    const std::size_t count = std::min<std::size_t>(kLanes, matrices.size() - first);
+    LaneMatrix h(n);
+    std::array<const double*, kLanes> from{};
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      // Lanes without a matrix repeat the last.
+      const Eigen::MatrixXd& matrix = matrices[first + std::min(lane, count - 1)];
+      if (!matrix.allFinite())
+        throw InvalidArgument("the period's map is not finite: expected modes and depths of a usual size");
+      from[lane] = matrix.data();
+    }
+    for (Eigen::Index i = 0; i < n; ++i) {
+      double* to = h.row(i);
+      for (Eigen::Index j = 0; j < n; ++j)
+        for (const double* lane : from) *to++ = lane[j * n + i];
+    }
+    reduce_to_hessenberg(h.data.data(), n, h.stride, work.data(), work.data() + n * kLanes);
+    LaneQr qr(h);
+    const auto& lanes = qr.run();
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const auto& found = lanes[lane].found;
+      result.push_back(lanes[lane].stuck
+                           ? eigenvalues(matrices[first + lane])
+                           : Eigen::VectorXcd(Eigen::Map<const Eigen::VectorXcd>(found.data(), n)));
+    }
+  }
+  return result;
+}
+
+}  // namespace stablecut
