@@ -1,7 +1,5 @@
 #include "milling/cutter.h"
 
-#include <Eigen/Geometry>
-#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -22,10 +20,17 @@ Cutter cutter_with(int teeth, bool up, double immersion) {
   return cutter;
 }
 
-double engaged_length(const Cutter& cutter) {
-  double sum = 0;
-  for (const auto& arc : engaged_arcs(cutter))
-    sum += (arc.to_rad - arc.from_rad) * (arc.last_tooth - arc.first_tooth);
+Eigen::Matrix2d coefficients(const DirectionalFactors& factors) { return factors.drive * factors.sense; }
+
+// The coefficients over a period, integrated piece by piece.
+Eigen::Matrix2d integrated(const CutSchedule& schedule) {
+  const GaussRule rule = gauss_legendre(40);
+  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  for (const CutPiece& piece : schedule.pieces) {
+    const double half = (piece.to_rad - piece.from_rad) / 2;
+    for (Eigen::Index i = 0; i < rule.node.size(); ++i)
+      sum += half * rule.weight[i] * coefficients(piece.cutting(piece.from_rad + half * (1 + rule.node[i])));
+  }
   return sum;
 }
 
@@ -42,73 +47,69 @@ TEST_CASE("25 % immersion cuts from 0 to 60 degrees up and from 120 to 180 down"
   CHECK_THROWS_AS(set_immersion(cutter, true, 1.01), InvalidArgument);
 }
 
-TEST_CASE("the arcs hold all that is cut: teeth times length is exit less entry") {
+TEST_CASE("slotting with an even number of teeth is one piece, with an odd number two") {
+  CHECK(cut_schedule(cutter_with(2, false, 1), 100, 1e-3).pieces.size() == 1);
+  CHECK(cut_schedule(cutter_with(8, true, 1), 100, 1e-3).pieces.size() == 1);
+  CHECK(cut_schedule(cutter_with(3, false, 1), 100, 1e-3).pieces.size() == 2);
+}
+
+TEST_CASE("the pieces hold all that is cut, whatever the pitch and the helix") {
   for (const int teeth : {1, 2, 3, 4, 5, 8, 12}) {
-    for (const double immersion : {0.05, 0.25, 0.5, 0.77, 1.0}) {
-      for (const bool up : {true, false}) {
-        const Cutter cutter = cutter_with(teeth, up, immersion);
-        INFO(teeth << " teeth, immersion " << immersion << (up ? " up" : " down"));
-        CHECK(engaged_length(cutter) == Approx(cutter.exit_rad - cutter.entry_rad).epsilon(1e-11));
-      }
-    }
-  }
-}
-
-TEST_CASE("slotting with an even number of teeth is one arc, with an odd number two") {
-  CHECK(engaged_arcs(cutter_with(2, false, 1)).size() == 1);
-  CHECK(engaged_arcs(cutter_with(8, true, 1)).size() == 1);
-  const auto arcs = engaged_arcs(cutter_with(3, false, 1));
-  REQUIRE(arcs.size() == 2);
-  CHECK(arcs[0].last_tooth - arcs[0].first_tooth + arcs[1].last_tooth - arcs[1].first_tooth == 3);
-}
-
-TEST_CASE("exact means equal a quadrature of the coefficients over the arcs") {
-  const GaussRule rule = gauss_legendre(40);
-  for (const int teeth : {1, 2, 3, 5}) {
-    for (const double immersion : {0.05, 0.4, 1.0}) {
-      Cutter cutter = cutter_with(teeth, false, immersion);
+    for (const double immersion : {0.05, 0.4, 0.77, 1.0}) {
+      Cutter cutter = cutter_with(teeth, immersion < 0.5, immersion);
       cutter.feed_angle_rad = 0.7;
-      Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
-      for (const auto& arc : engaged_arcs(cutter)) {
-        const double half = (arc.to_rad - arc.from_rad) / 2;
-        for (Eigen::Index i = 0; i < rule.node.size(); ++i) {
-          sum += half * rule.weight[i] *
-                 directional_coefficients(cutter, arc, arc.from_rad + half * (1 + rule.node[i]));
-        }
-      }
-      const double pitch = cutter.pitch_rad();
+      INFO(teeth << " teeth, immersion " << immersion);
+      const double pitch = cutter.mean_pitch_rad();
       const Eigen::Matrix2d mean = mean_directional_coefficients(cutter, 0, pitch);
-      CHECK((mean * pitch - sum).norm() < 1e-12 * sum.norm());
       // The mean over a pitch is the mean of the means over its parts, teeth entering inside a part or not.
       Eigen::Matrix2d parts = Eigen::Matrix2d::Zero();
       for (int i = 0; i < 7; ++i)
         parts += mean_directional_coefficients(cutter, i * pitch / 7, (i + 1) * pitch / 7) / 7;
       CHECK((parts - mean).norm() < 1e-12 * mean.norm());
+      for (const double lag : {0.0, 30.0, -90.0, 900.0, 4000.0}) {
+        cutter.lag_rad_per_m = lag;
+        cutter.pitch_rad.clear();
+        CHECK((integrated(cut_schedule(cutter, 100, 3e-3)) - mean * pitch).norm() < 1e-11 * mean.norm());
+        for (int j = 0; j < teeth; ++j) cutter.pitch_rad.push_back(pitch * (1 + 0.1 * std::sin(1.7 * j)));
+        double sum = 0;
+        for (const double angle : cutter.pitch_rad) sum += angle;
+        for (double& angle : cutter.pitch_rad) angle *= kTwoPi / sum;
+        const CutSchedule schedule = cut_schedule(cutter, 100, 3e-3);
+        CHECK(schedule.passes == teeth);
+        CHECK((integrated(schedule) - mean * kTwoPi).norm() < 1e-11 * teeth * mean.norm());
+        for (const CutPiece& piece : schedule.pieces) {
+          const CutPiece& before = schedule.pieces[piece.left_by];
+          CHECK(before.to_rad - before.from_rad == Approx(piece.to_rad - piece.from_rad));
+          CHECK((before.from_rad > piece.from_rad || teeth == 1) == piece.left_before);
+          CHECK(piece.to_rad < kTwoPi + 1e-9);
+        }
+      }
     }
   }
 }
 
 TEST_CASE("a feed angle turns the coefficients as a tensor") {
   Cutter cutter = cutter_with(2, true, 0.5);
-  const auto arc = engaged_arcs(cutter).front();
-  const Eigen::Matrix2d straight = directional_coefficients(cutter, arc, 0.4);
+  const Eigen::Matrix2d straight = coefficients(cut_schedule(cutter, 100, 1e-3).pieces[0].cutting(0.4));
   cutter.feed_angle_rad = kPi / 2;  // the feed along +y: what was x is y, what was y is -x
-  const Eigen::Matrix2d turned = directional_coefficients(cutter, arc, 0.4);
+  const Eigen::Matrix2d turned = coefficients(cut_schedule(cutter, 100, 1e-3).pieces[0].cutting(0.4));
   CHECK(turned(1, 1) == Approx(straight(0, 0)));
   CHECK(turned(0, 0) == Approx(straight(1, 1)));
   CHECK(turned(0, 1) == Approx(-straight(1, 0)));
 }
 
-TEST_CASE("the factors of the directional coefficients multiply to them") {
-  for (const int teeth : {1, 2, 3, 6}) {
-    Cutter cutter = cutter_with(teeth, true, 0.8);
-    cutter.feed_angle_rad = 0.3;
-    for (const auto& arc : engaged_arcs(cutter)) {
-      const double phase = 0.3 * arc.from_rad + 0.7 * arc.to_rad;
-      const auto factors = directional_factors(cutter, arc, phase);
-      const Eigen::Matrix2d whole = directional_coefficients(cutter, arc, phase);
-      CHECK((factors.drive * factors.sense - whole).norm() < 1e-14 * whole.norm());
-      CHECK(factors.sense.rows() == std::min(2, arc.last_tooth - arc.first_tooth));
-    }
+TEST_CASE("process damping takes energy wherever the tooth is, and more the slower it turns") {
+  Cutter cutter = cutter_with(3, true, 0.3);
+  CHECK(!cut_schedule(cutter, 100, 1e-3).pieces[0].damping);
+  cutter.damping_n_per_m = 6e5;
+  cutter.diameter_m = 0.012;
+  for (const double turn : {0.0, 0.5, 1.0}) {
+    const auto at = [&](double speed) {
+      return coefficients(cut_schedule(cutter, speed, 1e-3).pieces[0].damping(turn));
+    };
+    const Eigen::Matrix2d damping = at(50);
+    CHECK((damping - damping.transpose()).norm() < 1e-12 * damping.norm());
+    CHECK(damping.trace() == Approx(-6e5 / (kPi * 0.012 * 50)));
+    CHECK((at(25) - 2 * damping).norm() < 1e-12 * damping.norm());
   }
 }

@@ -268,16 +268,21 @@ std::vector<double> DepthScan::spectral_radii(const std::vector<double>& depths_
       missing.push_back(depth);
       missing_index.push_back(result.size());
     }
-    result.push_back(value.value_or(0));
+    // Multipliers are of the period, radii of one tooth.
+    result.push_back(value && map_.passes() > 1 ? std::pow(*value, 1.0 / map_.passes()) : value.value_or(0));
   }
   const std::vector<double> computed = stablecut::spectral_radii(map_, missing);
   for (std::size_t i = 0; i < missing.size(); ++i) result[missing_index[i]] = computed[i];
   return result;
 }
 
+double DepthScan::radius_of_period(double depth) const {
+  return leading_multipliers(map_, {depth}).front().cwiseAbs().maxCoeff();
+}
+
 double DepthScan::excess(double depth) const {
   const std::optional<double> value = panel_at(depth).interpolated(depth);
-  return value ? *value - 1 : spectral_radius(map_, depth) - 1;
+  return (value ? *value : radius_of_period(depth)) - 1;
 }
 
 // Where the excess changes sign: bisection with secant steps (Illinois), then a step with the map itself.
@@ -307,7 +312,7 @@ double DepthScan::crossing_between(double stable_m, double unstable_m) const {
   const double step = 1e-3 * (panel.to_m - panel.from_m);
   const auto low = panel.interpolated(unstable - step), high = panel.interpolated(unstable + step);
   if (!low || !high) return unstable;
-  const double correction = -(spectral_radius(map_, unstable) - 1) * 2 * step / (*high - *low);
+  const double correction = -(radius_of_period(unstable) - 1) * 2 * step / (*high - *low);
   return std::abs(correction) < step ? unstable + correction : unstable;
 }
 

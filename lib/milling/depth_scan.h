@@ -29,8 +29,8 @@ class DepthScan {
   /// Depths (0, largest_depth_m], largest_depth_m > 0. The map must outlive the scan.
   DepthScan(const PeriodMap& map, double largest_depth_m);
 
-  /// The spectral radius at each depth in [0, largest_depth_m], to some 1e-8 of max(1, radius) beside the
-  /// map's own error.
+  /// The spectral radius, of one tooth's pass, at each depth in [0, largest_depth_m], to some 1e-8 of max(1,
+  /// radius) beside the map's own error.
   std::vector<double> spectral_radii(const std::vector<double>& depths_m) const;
 
   /// Every boundary of stability, increasing, to 1e-9 of the largest depth or the accuracy of the map. Two
@@ -62,6 +62,7 @@ class DepthScan {
 
   double resolve(Panel& panel) const;
   const Panel& panel_at(double depth) const;
+  double radius_of_period(double depth) const;
   double excess(double depth) const;
   Sample climb(double from, double to, double sign) const;
   double crossing_between(double stable_m, double unstable_m) const;

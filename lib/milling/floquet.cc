@@ -51,14 +51,15 @@ double spectral_radius(const PeriodMap& map, double depth_m) {
 
 std::vector<double> spectral_radii(const PeriodMap& map, const std::vector<double>& depths_m) {
   std::vector<double> radii;
-  for (const Eigen::VectorXcd& values : leading_multipliers(map, depths_m))
-    radii.push_back(values.cwiseAbs().maxCoeff());
+  for (const Eigen::VectorXcd& values : leading_multipliers(map, depths_m)) {
+    const double radius = values.cwiseAbs().maxCoeff();
+    radii.push_back(map.passes() == 1 ? radius : std::pow(radius, 1.0 / map.passes()));
+  }
   return radii;
 }
 
 CriticalMultiplier critical_multiplier(const PeriodMap& map, double depth_m) {
   const TipStructure& structure = map.structure();
-  const Eigen::Index d = structure.directions();
   const Eigen::MatrixXd monodromy = map.monodromy(depth_m);
   const Eigen::VectorXcd multipliers = eigenvalues(monodromy);
   Eigen::Index largest = 0;
@@ -70,14 +71,7 @@ CriticalMultiplier critical_multiplier(const PeriodMap& map, double depth_m) {
     critical.kind = mu.real() < 0 ? Instability::kFlip : Instability::kFold;
   }
 
-  // Over the period that follows, u = mu u_delayed: f = depth * drive * (mu - 1) u_delayed.
-  const Eigen::VectorXcd state = eigenvector(monodromy, mu);
-  std::vector<Eigen::VectorXcd> force;
-  Eigen::Index row = 2 * structure.modes();
-  for (const ForceSample& sample : map.samples()) {
-    force.push_back(sample.weight_s * (sample.drive * state.segment(row, sample.drive.cols())));
-    row += sample.drive.cols();
-  }
+  const std::vector<ForceImpulse> forces = map.forces(depth_m, mu, eigenvector(monodromy, mu));
   const Complex exponent = std::log(mu) / map.period_s();
   const double highest = structure.lambda.cwiseAbs().maxCoeff();
   const auto harmonics =
@@ -85,14 +79,15 @@ CriticalMultiplier critical_multiplier(const PeriodMap& map, double depth_m) {
   double best = -1;
   for (int k = -harmonics; k <= harmonics; ++k) {
     const Complex s = exponent + Complex(0, kTwoPi * k / map.period_s());
-    Eigen::VectorXcd amplitude = Eigen::VectorXcd::Zero(d);
-    for (std::size_t i = 0; i < force.size(); ++i)
-      amplitude += force[i] * std::exp(-s * map.samples()[i].time_s);
-    amplitude = structure.receptance(s) * amplitude;
+    Eigen::VectorXcd amplitude = Eigen::VectorXcd::Zero(structure.directions());
+    for (const ForceImpulse& force : forces) amplitude += force.impulse * std::exp(-s * force.time_s);
+    const Eigen::MatrixXcd moved = structure.mode_receptances(s, amplitude);
+    amplitude = moved.rowwise().sum();
     // A tie (k and its mirror image of a real multiplier) goes to the first: the frequency is the same.
     if (amplitude.norm() > best * (1 + 1e-9)) {
       best = amplitude.norm();
       critical.chatter_frequency_hz = hz_from_rad_per_s(std::abs(s.imag()));
+      critical.participation = (amplitude.adjoint() * moved).real().transpose() / amplitude.squaredNorm();
     }
   }
   return critical;

@@ -18,15 +18,17 @@ namespace {
 // Wanted change of the spectral radius when points are added, of max(1, radius). Far above the limit the
 // radius is large and nobody needs its last digits.
 constexpr double kConverged = 1e-8;
-constexpr int kMostPoints = 240;        // per arc; then the error is what it is
-constexpr double kNearLimit = 2;        // a radius from which the limit is near
-constexpr double kMostHalfTurn = 1e4;   // rad in half an arc; more cannot be resolved by any number of points
-constexpr int kStagnation = 3;          // refinements without improvement, once below
+constexpr int kMostPoints = 240;       // on a piece; then the error is what it is
+constexpr double kNearLimit = 2;       // a radius from which the limit is near
+constexpr double kMostHalfTurn = 1e4;  // rad in half a piece; more cannot be resolved by any number of points
+constexpr int kStagnation = 3;         // refinements without improvement, once below
 constexpr double kNearRounding = 1e-5;  // this: rounding is what is left
-// Enough points to be near convergence: a polynomial follows the fastest mode's turn over half an arc.
-int first_guess(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s) {
+// Enough points to be near convergence: a polynomial follows the fastest mode's turn over half a piece.
+int first_guess(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
+                double largest_depth_m) {
   double longest = 0;
-  for (const EngagedArc& arc : engaged_arcs(cutter)) longest = std::max(longest, arc.to_rad - arc.from_rad);
+  for (const CutPiece& piece : cut_schedule(cutter, revolutions_per_s, largest_depth_m).pieces)
+    longest = std::max(longest, piece.to_rad - piece.from_rad);
   const double half_turn =
       structure.lambda.imag().cwiseAbs().maxCoeff() * longest / (2 * kTwoPi * revolutions_per_s);
   if (half_turn > kMostHalfTurn) {
@@ -50,7 +52,7 @@ PreparedPeriod converged_spectral(const TipStructure& structure, const Cutter& c
   const auto build = [&](int points) {
     return std::make_unique<SpectralMap>(structure, cutter, revolutions_per_s, points);
   };
-  int points = first_guess(structure, cutter, revolutions_per_s);
+  int points = first_guess(structure, cutter, revolutions_per_s, largest_depth_m);
   auto map = build(points);
   // At the top, half way, and where the limit is near: far above it a radius may be astronomical.
   std::vector<double> depths = {largest_depth_m, largest_depth_m / 2};

@@ -7,8 +7,8 @@ namespace stablecut {
 
 SemiDiscretizationMap::SemiDiscretizationMap(const TipStructure& structure, const Cutter& cutter,
                                              double revolutions_per_s, int intervals)
-    : PeriodMap(structure, cutter.tooth_period_s(revolutions_per_s)), interval_s_(period_s() / intervals) {
-  const double step = cutter.pitch_rad() / intervals;
+    : PeriodMap(structure, cutter.tooth_period_s(revolutions_per_s), 1), interval_s_(period_s() / intervals) {
+  const double step = cutter.mean_pitch_rad() / intervals;
   for (int i = 0; i < intervals; ++i) {
     const Eigen::Matrix2d mean = mean_directional_coefficients(cutter, i * step, (i + 1) * step);
     if (mean.isZero(0)) {
@@ -16,14 +16,14 @@ SemiDiscretizationMap::SemiDiscretizationMap(const TipStructure& structure, cons
       continue;
     }
     mean_coefficient_.push_back(mean(structure.axes, structure.axes));
-    samples_.push_back({(i + 0.5) * interval_s_, interval_s_, mean_coefficient_.back()});
+    ++intervals_in_cut_;
   }
 }
 
 Eigen::MatrixXd SemiDiscretizationMap::monodromy(double depth_m) const {
   const Eigen::Index d = structure().directions();
   const Eigen::Index states = 2 * structure().modes();
-  const Eigen::Index size = states + d * static_cast<Eigen::Index>(samples_.size());
+  const Eigen::Index size = states + d * intervals_in_cut_;
   const double scale = structure().displacement_scale_m;
   const Eigen::MatrixXd displacement = structure().displacement_of_state();
   const Eigen::MatrixXd rate_of_force = structure().state_rate_of_force();
@@ -60,6 +60,21 @@ Eigen::MatrixXd SemiDiscretizationMap::monodromy(double depth_m) const {
   }
   map.topRows(states) = now;
   return map;
+}
+
+std::vector<ForceImpulse> SemiDiscretizationMap::forces(double, std::complex<double> multiplier,
+                                                        const Eigen::VectorXcd& state) const {
+  // u = mu u_delayed, so the force is that of (mu - 1) u_delayed.
+  std::vector<ForceImpulse> result;
+  Eigen::Index row = 2 * structure().modes();
+  for (std::size_t i = 0; i < mean_coefficient_.size(); ++i) {
+    const Eigen::MatrixXd& coefficient = mean_coefficient_[i];
+    if (coefficient.size() == 0) continue;
+    result.push_back({(static_cast<double>(i) + 0.5) * interval_s_,
+                      (multiplier - 1.0) * (coefficient * state.segment(row, coefficient.cols()))});
+    row += coefficient.cols();
+  }
+  return result;
 }
 
 }  // namespace stablecut

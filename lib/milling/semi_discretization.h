@@ -13,16 +13,20 @@ namespace stablecut {
 /// interval's two ends; the textbook matrix of (m + 1) full states has the same nonzero eigenvalues.
 class SemiDiscretizationMap : public PeriodMap {
  public:
-  /// `intervals` is m >= 1, from phase 0 on (tooth 1 at +Y). The structure must outlive the map.
+  /// For straight teeth of equal pitch, without process damping. `intervals` is m >= 1, from phase 0 on
+  /// (tooth 1 at +Y). The structure must outlive the map.
   SemiDiscretizationMap(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
                         int intervals);
 
   /// [2 modes + directions * intervals in cut, square]. The averages (6-29) are exact integrals; each
   /// interval's map is a matrix exponential, free flight is exact.
   Eigen::MatrixXd monodromy(double depth_m) const override;
+  std::vector<ForceImpulse> forces(double depth_m, std::complex<double> multiplier,
+                                   const Eigen::VectorXcd& state) const override;
 
  private:
   double interval_s_;
+  Eigen::Index intervals_in_cut_ = 0;
   std::vector<Eigen::MatrixXd> mean_coefficient_;  // per interval; empty where nothing cuts
 };
 

@@ -23,7 +23,7 @@ double textbook_radius(const TipStructure& structure, const Cutter& cutter, doub
   psi_r << structure.psi_r, structure.psi_r.conjugate();
   psi_l << structure.psi_l, structure.psi_l.conjugate();
   const double dt = cutter.tooth_period_s(revolutions_per_s) / m;
-  const double step = cutter.pitch_rad() / m;
+  const double step = cutter.mean_pitch_rad() / m;
 
   const Eigen::Index size = 2 * n * (m + 1);
   Eigen::MatrixXcd product = Eigen::MatrixXcd::Identity(size, size);

@@ -1,8 +1,12 @@
 #include "milling/spectral.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <vector>
 
+#include "base/units.h"
+#include "milling/exponential_moments.h"
 #include "milling/milling_fixtures_test.h"
 #include "milling/semi_discretization.h"
 
@@ -45,4 +49,144 @@ TEST_CASE("semi-discretization tends to the spectral result, with the square of 
     CHECK(error_320 < error_80 / 4);
     CHECK(error_320 < 1e-4);
   }
+}
+
+TEST_CASE("unequal pitch with equal pitches is the plain case") {
+  const TipStructure structure = tip_structure(fixtures::coupled_modes(5, 4));
+  for (const auto& [teeth, immersion] : {std::pair{1, 0.3}, std::pair{2, 0.25}, std::pair{3, 0.2},
+                                         std::pair{2, 1.0}, std::pair{3, 1.0}, std::pair{4, 0.7}}) {
+    Cutter cutter = fixtures::benchmark_cutter(true, immersion, teeth);
+    for (const double depth : {0.3e-3, 1.5e-3}) {
+      cutter.pitch_rad.clear();
+      const double plain = spectral_radius(SpectralMap(structure, cutter, 150, 24), depth);
+      cutter.pitch_rad.assign(static_cast<std::size_t>(teeth), kTwoPi / teeth);
+      const double by_tooth = spectral_radius(SpectralMap(structure, cutter, 150, 24), depth);
+      INFO(teeth << " teeth, immersion " << immersion << ", depth " << depth);
+      CHECK(by_tooth == Approx(plain).epsilon(1e-10));
+    }
+  }
+}
+
+TEST_CASE("helix: a slight one is the plain case, and pitches by tooth are the plain pitch") {
+  const TipStructure structure = tip_structure(fixtures::coupled_modes(4, 6));
+  for (const auto& [teeth, immersion] : {std::pair{3, 0.3}, std::pair{4, 0.8}}) {
+    Cutter cutter = fixtures::benchmark_cutter(true, immersion, teeth);
+    const double plain = spectral_radius(SpectralMap(structure, cutter, 130, 24), 2e-3);
+    cutter.lag_rad_per_m = 1e-9;
+    CHECK(spectral_radius(SpectralMap(structure, cutter, 130, 24), 2e-3) == Approx(plain).epsilon(1e-9));
+    for (const double lag_at_depth : {0.2, 0.9, -0.5}) {
+      cutter.lag_rad_per_m = lag_at_depth / 2e-3;
+      cutter.pitch_rad.clear();
+      const double helical = spectral_radius(SpectralMap(structure, cutter, 130, 30), 2e-3);
+      cutter.pitch_rad.assign(static_cast<std::size_t>(teeth), kTwoPi / teeth);
+      CHECK(spectral_radius(SpectralMap(structure, cutter, 130, 30), 2e-3) == Approx(helical).epsilon(1e-9));
+    }
+  }
+}
+
+TEST_CASE("helix: discs of straight teeth, each behind the one below, tend to it") {
+  const TipStructure structure = tip_structure(fixtures::coupled_modes(4, 6));
+  const double depth = 2e-3, pitch = kTwoPi / 3;
+  const GaussRule discs = gauss_legendre(30);
+  for (const double lag_at_depth : {0.2, 1.3, -0.5}) {
+    Cutter cutter = fixtures::benchmark_cutter(true, 0.3, 3);
+    const auto lag = [&](Eigen::Index i) { return lag_at_depth * (1 + discs.node[i]) / 2; };
+    std::vector<double> ends;
+    const auto add_end = [&](double angle) { ends.push_back(angle - pitch * std::floor(angle / pitch)); };
+    for (Eigen::Index i = 0; i < discs.node.size(); ++i) {
+      add_end(cutter.entry_rad + lag(i));
+      add_end(cutter.exit_rad + lag(i));
+    }
+    std::sort(ends.begin(), ends.end());
+    ends.push_back(ends.front() + pitch);
+    CutSchedule schedule{pitch, 1, {}};
+    for (std::size_t e = 0; e + 1 < ends.size(); ++e) {
+      const double middle = (ends[e] + ends[e + 1]) / 2, start = ends.front();
+      // Coefficients of what is in cut in the middle of the piece, that is all along it.
+      const auto cutting = [&, middle, start](double turn) {
+        Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+        for (Eigen::Index i = 0; i < discs.node.size(); ++i) {
+          for (int tooth = -3; tooth <= 3; ++tooth) {
+            const double shift = tooth * pitch - lag(i);
+            if (!(middle + shift > cutter.entry_rad && middle + shift < cutter.exit_rad)) continue;
+            const double s = std::sin(start + turn + shift), c = std::cos(start + turn + shift);
+            const Eigen::Vector2d force(-c * cutter.kt_n_per_m2 - s * cutter.kr_n_per_m2,
+                                        s * cutter.kt_n_per_m2 - c * cutter.kr_n_per_m2);
+            sum += discs.weight[i] / 2 * force * Eigen::RowVector2d(s, c);
+          }
+        }
+        return DirectionalFactors{sum, Eigen::Matrix2d::Identity()};
+      };
+      if (cutting(middle - start).drive.isZero(0) || ends[e + 1] - ends[e] < 1e-9) continue;
+      schedule.pieces.push_back(
+          {ends[e] - start, ends[e + 1] - start, cutting, {}, schedule.pieces.size(), true});
+    }
+    const double sliced = spectral_radius(SpectralMap(structure, schedule, 130, 16), depth);
+    cutter.lag_rad_per_m = lag_at_depth / depth;
+    const double helical = spectral_radius(SpectralMap(structure, cutter, 130, 30), depth);
+    INFO("lag " << lag_at_depth << ": " << helical << ", sliced " << sliced);
+    CHECK(sliced == Approx(helical).epsilon(1e-6));
+    cutter.lag_rad_per_m = 0;
+    CHECK(std::abs(spectral_radius(SpectralMap(structure, cutter, 130, 30), depth) - helical) > 1e-3);
+  }
+}
+
+TEST_CASE("unequal pitch: it converges, and to the growth of a plain simulation") {
+  const TipStructure structure = tip_structure(fixtures::oscillator({"x", "y"}));
+  for (const double immersion : {0.1, 1.0}) {
+    Cutter cutter = fixtures::benchmark_cutter(true, immersion, 4);
+    cutter.pitch_rad = {kTwoPi * 70 / 360, kTwoPi * 110 / 360, kTwoPi * 70 / 360, kTwoPi * 110 / 360};
+    const SpectralMap map(structure, cutter, 100, 16);
+    const double fine = spectral_radius(SpectralMap(structure, cutter, 100, 26), 0.4e-3);
+    CHECK(spectral_radius(map, 0.4e-3) == Approx(fine).epsilon(1e-7));
+
+    // One revolution after the other in small steps (second order), the growth of the motion.
+    constexpr int kSteps = 7200;  // in a revolution: pitches are whole numbers of steps
+    const double dt = 1.0 / (100.0 * kSteps), depth = 0.4e-3;
+    const Eigen::MatrixXd flight = structure.free_flight(dt), half = structure.free_flight(dt / 2),
+                          rate = structure.state_rate_of_force(),
+                          displacement = structure.displacement_of_state();
+    std::vector<Eigen::Vector2d> path;
+    Eigen::VectorXd state = Eigen::VectorXd::Ones(2 * structure.modes());
+    std::vector<double> size;
+    for (int step = 0; step < 60 * kSteps; ++step) {
+      const Eigen::VectorXd middle = half * state;
+      path.push_back(displacement * middle);
+      Eigen::Vector2d force(0, 0);
+      double behind = 0;
+      for (std::size_t j = 0; j < 4; ++j) {
+        // Tooth j follows tooth j - 1 by the pitch before it.
+        const double pitch = cutter.pitch_rad[(j + 3) % 4];
+        const double phi = std::remainder(kTwoPi * (step + 0.5) / kSteps - behind, kTwoPi);
+        behind += cutter.pitch_rad[j];
+        if (!(phi > cutter.entry_rad && phi < cutter.exit_rad)) continue;
+        const auto delay = static_cast<std::size_t>(std::lround(pitch / kTwoPi * kSteps));
+        const Eigen::Vector2d before =
+            path.size() > delay ? path[path.size() - 1 - delay] : Eigen::Vector2d(0, 0);
+        const double s = std::sin(phi), c = std::cos(phi);
+        force += depth *
+                 Eigen::Vector2d(-c * cutter.kt_n_per_m2 - s * cutter.kr_n_per_m2,
+                                 s * cutter.kt_n_per_m2 - c * cutter.kr_n_per_m2) *
+                 (Eigen::RowVector2d(s, c) * (path.back() - before)).value();
+      }
+      state = flight * state + half * (rate * force) * dt;
+      if ((step + 1) % kSteps == 0) size.push_back(state.norm());
+    }
+    // Growth over the last revolutions, for one tooth.
+    const double growth = std::pow(size[59] / size[29], 1.0 / (30 * 4));
+    INFO("immersion " << immersion << ": " << fine << ", simulated " << growth);
+    CHECK(growth == Approx(fine).epsilon(3e-3));
+  }
+}
+
+TEST_CASE("process damping converges, and it raises the limit at low speed") {
+  const TipStructure structure = tip_structure(fixtures::oscillator({"x", "y"}));
+  Cutter cutter = fixtures::benchmark_cutter(true, 0.5, 2);
+  const double plain = spectral_radius(SpectralMap(structure, cutter, 20, 60), 0.5e-3);
+  cutter.diameter_m = 0.012;
+  cutter.damping_n_per_m = 2e5;
+  cutter.damping_friction = 0.3;
+  const double damped = spectral_radius(SpectralMap(structure, cutter, 20, 60), 0.5e-3);
+  CHECK(damped < plain - 0.01);
+  CHECK(spectral_radius(SpectralMap(structure, cutter, 20, 72), 0.5e-3) == Approx(damped).epsilon(1e-8));
 }

@@ -31,13 +31,14 @@ Eigen::MatrixXd TipStructure::free_flight(double time_s) const {
   return result;
 }
 
-Eigen::MatrixXcd TipStructure::receptance(std::complex<double> s) const {
-  Eigen::MatrixXcd h = Eigen::MatrixXcd::Zero(directions(), directions());
+Eigen::MatrixXcd TipStructure::mode_receptances(std::complex<double> s, const Eigen::VectorXcd& force) const {
+  Eigen::MatrixXcd moved(directions(), modes());
   for (Eigen::Index k = 0; k < modes(); ++k) {
-    const Eigen::MatrixXcd residue = psi_r.col(k) * psi_l.col(k).transpose();
-    h += residue / (s - lambda[k]) + residue.conjugate() / (s - std::conj(lambda[k]));
+    moved.col(k) =
+        psi_r.col(k) * ((psi_l.col(k).transpose() * force).value() / (s - lambda[k])) +
+        psi_r.col(k).conjugate() * ((psi_l.col(k).adjoint() * force).value() / (s - std::conj(lambda[k])));
   }
-  return h;
+  return moved;
 }
 
 TipStructure tip_structure(const ModalModel& model) {
@@ -53,10 +54,14 @@ TipStructure tip_structure(const ModalModel& model) {
   if (rows.empty()) throw InvalidArgument("dofs: expected x, y or both");
 
   std::vector<Mode> kept;
-  for (Mode mode : model.modes) {
+  for (std::size_t k = 0; k < model.modes.size(); ++k) {
+    Mode mode = model.modes[k];
     mode.psi_r = mode.psi_r(rows).eval();
     mode.psi_l = mode.psi_l(rows).eval();
-    if (!mode.psi_r.isZero(0) && !mode.psi_l.isZero(0)) kept.push_back(normalised(mode));
+    if (!mode.psi_r.isZero(0) && !mode.psi_l.isZero(0)) {
+      kept.push_back(normalised(mode));
+      structure.source.push_back(k);
+    }
   }
   const auto n = static_cast<Eigen::Index>(kept.size());
   structure.lambda.resize(n);

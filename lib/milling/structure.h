@@ -15,6 +15,7 @@ struct TipStructure {
   Eigen::MatrixXcd psi_r;           ///< [directions x modes], sqrt(s/kg)
   Eigen::MatrixXcd psi_l;           ///< [directions x modes], sqrt(s/kg)
   std::vector<Eigen::Index> axes;   ///< [directions] 0 for x, 1 for y: which directions can move
+  std::vector<std::size_t> source;  ///< [modes] index of each in the model
   double displacement_scale_m = 1;  ///< a displacement of this size is comparable to a state of size 1
 
   Eigen::Index modes() const { return lambda.size(); }
@@ -26,8 +27,9 @@ struct TipStructure {
   Eigen::MatrixXd state_rate_of_force() const;
   /// The real state's map over free flight of `time_s`, [2 modes x 2 modes]: exact.
   Eigen::MatrixXd free_flight(double time_s) const;
-  /// Receptance at the complex frequency s (rad/s), [directions x directions], m/N.
-  Eigen::MatrixXcd receptance(std::complex<double> s) const;
+  /// How each mode moves the tip under a force [directions] at the complex frequency s (rad/s), [directions x
+  /// modes], m/N times the force; their sum is the receptance times the force.
+  Eigen::MatrixXcd mode_receptances(std::complex<double> s, const Eigen::VectorXcd& force) const;
 };
 
 /// Directions x and y of the model. Other dofs are left out, and so is a mode that no force in x or y drives
