@@ -67,12 +67,46 @@ class SdmLobes : public cli::Tool {
     add_file_option(app, "--points", points_path_,
                     "Tested cuts to judge: CSV or JSON with depth_mm, speed_rpm[, observed]");
     app.add_flag("--limit-only", limit_only_, "No grid of spectral radii, only the limit");
+    cli::add_integer_option(app, "--best", best_, 0, "Best points to run at most (default: 5)");
+    const auto share = [](double value) { return value >= 0 && value < 1; };
+    cli::add_number_option(app, "--depth-margin", depth_margin_,
+                           "Of the limit depth, kept by the best points (default: 0.1)",
+                           "a ratio not below 0 and below 1", share);
+    cli::add_number_option(app, "--speed-margin", speed_margin_,
+                           "Of the speed, to either side, over which they stay stable (default: 0.02)",
+                           "a ratio not below 0 and below 1", share);
+    cli::add_number_option(app, "--max-power", most_power_,
+                           "W at the cut that they may take; needs feed_per_tooth_mm in the cut",
+                           "a number above 0", positive);
+    cli::add_number_option(app, "--max-torque", most_torque_, "N m of the spindle, alike", "a number above 0",
+                           positive);
+    cli::add_integer_option(
+        app, "--samples", samples_, 2,
+        "Cuts drawn from the table's covariance and the cut's deviations, for the probability "
+        "of stability and an interval of the limit");
+    cli::add_integer_option(app, "--seed", seed_, 0, "Of the samples (default: 1)");
+    not_in_provenance(
+        app.add_option_function<std::string>(
+               "--shard",
+               [this](const std::string& text) {
+                 const auto slash = text.find('/');
+                 const auto index = parse_integer(text.substr(0, slash));
+                 const auto count =
+                     slash == std::string::npos ? std::nullopt : parse_integer(text.substr(slash + 1));
+                 if (!index || !count || *index < 1 || *index > *count)
+                   throw CLI::ValidationError("--shard", text + ": expected K/N with 1 <= K <= N");
+                 shard_ = Shard{*index, *count};
+               },
+               "Only part K of N of the chart: every Nth speed from the Kth on")
+            ->type_name("K/N"));
+    not_in_provenance(cli::add_repeated_option(
+        app, "--merge", "FILE",
+        "A part of this chart, computed by the same command with --shard; give all parts, one option each",
+        [this](const std::string& path) { part_paths_.push_back(path); }));
   }
 
   void run() override {
-    if (intervals_ && method_ != "sdm") {
-      throw cli::Failure(cli::ExitStatus::kUsage, "--intervals: expected with --method sdm only");
-    }
+    check_usage();
     const Json cut_json = cut_document();
     const CutDocument cut = read_cut(cut_json);
     const cli::Input table = read_main_input(true);
@@ -105,24 +139,131 @@ class SdmLobes : public cli::Tool {
       }
     }
 
+    if (shard_ && static_cast<std::size_t>(shard_->count) > lobes.speed_rpm.size())
+      throw cli::Failure(cli::ExitStatus::kUsage, "--shard: expected at most as many parts as speeds, " +
+                                                      std::to_string(lobes.speed_rpm.size()));
+    if (shard_) {
+      lobes.shard = shard_;
+      lobes.speed_rpm = shard_->part_of(lobes.speed_rpm);
+    }
+    check_scheme(cut.cutter, lobes.scheme);
+    lobes.samples = samples_.value_or(0);
+    const ChartAxes axes(lobes);
+    if (part_paths_.empty()) {
+      compute_chart(structure, model, cut, axes, lobes);
+    } else {
+      std::vector<Input> parts;
+      for (const std::string& path : part_paths_) parts.push_back(read_part(path));
+      merge_parts(lobes, !limit_only_, parts);
+    }
+    if (per_mode_) lobes.per_mode = limit_of_each_mode(whole_model, cut.cutter, axes, lobes.scheme);
+    judge(structure, cut.cutter, lobes);
+    if (!shard_) lobes.what_to_run = what_to_run(structure, cut, axes, lobes);
+    warn_if_not_converged(lobes);
+    write_document(main_output(), lobes_to_json(lobes));
+  }
+
+  // The chart's speeds and depths in the units of the numeric rooms.
+  struct ChartAxes {
     std::vector<double> revolutions_per_s, depths_m;
-    for (const double rpm : lobes.speed_rpm) revolutions_per_s.push_back(revolutions_per_s_from_rpm(rpm));
-    for (const double mm : lobes.depth_mm) depths_m.push_back(metres_from_mm(mm));
+    explicit ChartAxes(const LobesDocument& lobes) {
+      for (const double rpm : lobes.speed_rpm) revolutions_per_s.push_back(revolutions_per_s_from_rpm(rpm));
+      for (const double mm : lobes.depth_mm) depths_m.push_back(metres_from_mm(mm));
+    }
+  };
+
+  void check_usage() const {
+    const auto usage = [](bool wrong, const std::string& text) {
+      if (wrong) throw cli::Failure(cli::ExitStatus::kUsage, text);
+    };
+    usage(intervals_ && method_ != "sdm", "--intervals: expected with --method sdm only");
+    usage(samples_ && method_ == "sdm", "--samples: expected with --method spectral only");
+    usage(seed_ && !samples_, "--seed: expected with --samples only");
+    usage(shard_ && !part_paths_.empty(), "--shard: expected either --shard or --merge");
+    usage(shard_ && (per_mode_ || !points_path_.empty()),
+          "--shard: expected --per-mode and --points with --merge, not with a part");
+  }
+
+  void check_scheme(const Cutter& cutter, const StabilityScheme& scheme) const {
+    if (scheme.method != StabilityMethod::kSemiDiscretization) return;
+    if (!cutter.equal_pitch() || cutter.lag_rad_per_m != 0 || cutter.damping_n_per_m > 0)
+      throw cli::Failure(cli::ExitStatus::kUsage,
+                         "--method: sdm: expected straight teeth of equal pitch without process damping");
+  }
+
+  void compute_chart(const TipStructure& structure, const ModalModel& model, const CutDocument& cut,
+                     const ChartAxes& axes, LobesDocument& lobes) {
     {
       cli::ProgressBar bar("sdm-lobes: chart", !quiet());
-      lobes.chart = stability_chart(structure, cut.cutter, revolutions_per_s, depths_m, lobes.scheme,
-                                    !limit_only_, threads(), [&](double share) { bar.show(share); });
+      lobes.chart =
+          stability_chart(structure, cut.cutter, axes.revolutions_per_s, axes.depths_m, lobes.scheme,
+                          !limit_only_, threads(), [&](double share) { bar.show(share); });
     }
-    if (per_mode_) {
-      lobes.per_mode = limit_of_each_mode(whole_model, cut.cutter, revolutions_per_s, depths_m, lobes.scheme);
+    // Modes are named as in the table.
+    if (modes_) {
+      for (auto& crossings : lobes.chart.crossings) {
+        for (StabilityCrossing& crossing : crossings)
+          crossing.mode = static_cast<std::size_t>((*modes_)[crossing.mode] - 1);
+      }
     }
-    judge(structure, cut.cutter, lobes);
-    if (lobes.scheme.method == StabilityMethod::kSpectral &&
-        std::max(lobes.chart.error, lobes.points_error) > kSuspectError) {
-      warn("the spectral radius has converged only to " +
-           Json(std::max(lobes.chart.error, lobes.points_error)).dump() + " (see /convergence)");
+    if (!samples_) return;
+    if (model.covariance.size() == 0 && cut.deviations.kt_n_per_m2 == 0 && cut.deviations.kr_n_per_m2 == 0)
+      warn(
+          "--samples: neither a covariance in the modal table nor kt_std_n_per_mm2 or kr_std_n_per_mm2 in "
+          "the cut: "
+          "every sample is the same");
+    cli::ProgressBar bar("sdm-lobes: samples", !quiet());
+    lobes.sampled = sampled_stability(
+        sampled_cuts(model, cut.cutter, cut.deviations, *samples_, static_cast<unsigned>(seed_.value_or(1))),
+        axes.revolutions_per_s, axes.depths_m, lobes.chart.resolution, !limit_only_, threads(),
+        [&](double share) { bar.show(share); });
+  }
+
+  WhatToRun what_to_run(const TipStructure& structure, const CutDocument& cut, const ChartAxes& axes,
+                        const LobesDocument& lobes) const {
+    WhatToRun what;
+    std::vector<LimitPoint> curve;
+    for (std::size_t s = 0; s < axes.revolutions_per_s.size(); ++s) {
+      const StabilityCrossing* limit = limit_of(lobes.chart.crossings[s]);
+      curve.push_back({axes.revolutions_per_s[s], {}});
+      if (limit != nullptr) curve.back().depth_m = as_written(limit->depth_m);
     }
-    write_document(main_output(), lobes_to_json(lobes));
+    const double top = axes.depths_m.back();
+    const auto limit_at = [&](double speed, double largest_depth_m) -> std::optional<double> {
+      const auto chart =
+          stability_chart(structure, cut.cutter, {speed}, {largest_depth_m}, lobes.scheme, false, 1);
+      const StabilityCrossing* limit = limit_of(chart.crossings.front());
+      return limit != nullptr ? std::optional(limit->depth_m) : std::nullopt;
+    };
+    what.unconditional = unconditional_limit(curve, limit_at, threads());
+    what.limits.largest_depth_m = top;
+    if (depth_margin_) what.limits.depth_share = *depth_margin_;
+    if (speed_margin_) what.limits.speed_share = *speed_margin_;
+    if (most_power_ || most_torque_) {
+      if (!cut.feed_per_tooth_m) {
+        throw cli::Failure(cli::ExitStatus::kUsage,
+                           (most_power_ ? std::string("--max-power") : std::string("--max-torque")) +
+                               ": expected feed_per_tooth_mm and diameter_mm in the cut");
+      }
+      const CutRate unit = cut_rate(cut.cutter, *cut.feed_per_tooth_m, 1, 1);
+      if (most_power_) what.limits.largest_depth_times_speed = *most_power_ / unit.power_w;
+      if (most_torque_) what.limits.largest_depth_by_torque = *most_torque_ / unit.torque_n_m;
+    }
+    what.best = best_points(curve, what.limits, static_cast<std::size_t>(best_.value_or(5)));
+    if (cut.feed_per_tooth_m) {
+      for (const OperatingPoint& point : what.best)
+        what.rates.push_back(
+            cut_rate(cut.cutter, *cut.feed_per_tooth_m, point.revolutions_per_s, point.depth_m));
+    }
+    return what;
+  }
+
+  void warn_if_not_converged(const LobesDocument& lobes) const {
+    if (lobes.scheme.method != StabilityMethod::kSpectral) return;
+    const double error =
+        std::max(lobes.points_error, *std::max_element(lobes.chart.error.begin(), lobes.chart.error.end()));
+    if (error > kSuspectError)
+      warn("the spectral radius has converged only to " + Json(error).dump() + " (see /convergence)");
   }
 
   // From --cut, or from the options.
@@ -198,9 +339,7 @@ class SdmLobes : public cli::Tool {
   }
 
   std::vector<ModeLimit> limit_of_each_mode(const ModalModel& model, const Cutter& cutter,
-                                            const std::vector<double>& revolutions_per_s,
-                                            const std::vector<double>& depths_m,
-                                            const StabilityScheme& scheme) const {
+                                            const ChartAxes& axes, const StabilityScheme& scheme) const {
     std::vector<int> indices;
     for (int k = 1; k <= static_cast<int>(model.modes.size()); ++k) {
       if (!modes_ || std::binary_search(modes_->begin(), modes_->end(), k)) indices.push_back(k);
@@ -209,11 +348,16 @@ class SdmLobes : public cli::Tool {
     cli::ProgressBar bar("sdm-lobes: modes", !quiet());
     for (std::size_t i = 0; i < indices.size(); ++i) {
       const ModalModel alone = chosen_modes(model, {static_cast<std::size_t>(indices[i] - 1)});
-      ModeLimit limit{indices[i], std::vector<std::optional<StabilityLimit>>(revolutions_per_s.size())};
+      ModeLimit limit{indices[i], std::vector<std::vector<StabilityCrossing>>(axes.revolutions_per_s.size())};
       // A mode that a force at the tip does not drive, or that does not move it, cannot chatter.
       if (const TipStructure structure = tip_structure(alone); structure.modes() > 0) {
-        limit.limit =
-            stability_chart(structure, cutter, revolutions_per_s, depths_m, scheme, false, threads()).limit;
+        limit.crossings = stability_chart(structure, cutter, axes.revolutions_per_s, axes.depths_m, scheme,
+                                          false, threads())
+                              .crossings;
+      }
+      for (auto& crossings : limit.crossings) {
+        for (StabilityCrossing& crossing : crossings)
+          crossing.mode = static_cast<std::size_t>(limit.mode - 1);
       }
       result.push_back(std::move(limit));
       bar.show(static_cast<double>(i + 1) / static_cast<double>(indices.size()));
@@ -235,8 +379,10 @@ class SdmLobes : public cli::Tool {
   }
 
   std::string cut_path_, points_path_, milling_, method_ = "spectral";
-  std::optional<int> teeth_, intervals_;
-  std::optional<double> kt_, kr_, immersion_;
+  std::optional<int> teeth_, intervals_, best_, samples_, seed_;
+  std::optional<double> kt_, kr_, immersion_, depth_margin_, speed_margin_, most_power_, most_torque_;
+  std::optional<Shard> shard_;
+  std::vector<std::string> part_paths_;
   std::vector<CLI::Option*> cut_options_;
   std::optional<Range> speed_, depth_;
   std::optional<std::vector<int>> modes_;

@@ -123,6 +123,12 @@ CLI::Option* Tool::add_file_option(CLI::App& app, const std::string& name, std::
   return option;
 }
 
+Input Tool::read_part(const std::string& path) {
+  Input input = read_input(path, true);
+  inputs_.pop_back();
+  return input;
+}
+
 Input Tool::read_input(const std::string& path, bool must_be_json) {
   if (path == "-") {
     if (standard_input_taken_)

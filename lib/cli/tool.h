@@ -38,6 +38,8 @@ class Tool {
   Input read_main_input(bool must_be_json) { return read_input(input_, must_be_json); }
   Input read_input(const std::string& path, bool must_be_json);
   const std::string& main_input() const { return input_; }
+  /// A part of the tool's own result: not an input of the document.
+  Input read_part(const std::string& path);
 
   /// Adds provenance and takes the document as an output; "-" is standard output.
   void write_document(const std::string& path, Json document);

@@ -11,6 +11,7 @@ namespace {
 
 constexpr int kMostTeeth = 1000;
 constexpr int kMostPoints = 1'000'000;
+constexpr double kSameDegrees = 1e-6;
 constexpr Bound kImmersion{
     .least = 0, .most = 1, .open_least = true, .words = "a radial immersion ae/D above 0 and at most 1"};
 constexpr Bound kEngagementAngle{.least = 0, .most = 180, .words = "an angle from 0 to 180 degrees"};
@@ -53,18 +54,35 @@ void read_engagement(const Node& root, Cutter& cutter) {
   cutter.exit_rad = radians_from_degrees(exit);
 }
 
-void refuse_what_is_not_computed(const Node& root, int teeth) {
+// Pitches that are equal need no schedule for each tooth.
+void read_edges(const Node& root, Cutter& cutter) {
   if (const auto pitch = root.find("pitch_deg")) {
     const Eigen::VectorXd angles = pitch->numbers(kPositive);
-    if (angles.size() != teeth)
-      pitch->fail("expected " + std::to_string(teeth) + " angles, one for each tooth");
-    if (std::abs(angles.sum() - 360) > 1e-6) pitch->fail("expected angles that sum to 360 degrees");
-    if ((angles.array() - 360.0 / teeth).abs().maxCoeff() > 1e-6) {
-      pitch->fail("expected equal angles: unequal pitch is not computed by this version");
+    if (angles.size() != cutter.teeth)
+      pitch->fail("expected " + std::to_string(cutter.teeth) + " angles, one for each tooth");
+    if (std::abs(angles.sum() - 360) > kSameDegrees) pitch->fail("expected angles that sum to 360 degrees");
+    if ((angles.array() - 360.0 / cutter.teeth).abs().maxCoeff() > kSameDegrees) {
+      // Their sum must be one turn to the last digit.
+      for (const double angle : angles) cutter.pitch_rad.push_back(kTwoPi * angle / angles.sum());
     }
   }
   if (const auto helix = root.find("helix_deg"); helix && helix->number(kHelix) != 0) {
-    helix->fail("expected 0: this version computes straight teeth only");
+    if (!root.has("diameter_mm")) helix->fail("expected diameter_mm beside a helix angle");
+    cutter.lag_rad_per_m = 2 * std::tan(radians_from_degrees(helix->number(kHelix))) / cutter.diameter_m;
+  }
+}
+
+void read_process_damping(const Node& root, Cutter& cutter) {
+  const auto damping = root.find("process_damping_n_per_m");
+  const auto friction = root.find("process_damping_friction");
+  if (damping) {
+    cutter.damping_n_per_m = damping->number(kNotNegative);
+    if (cutter.damping_n_per_m > 0 && !root.has("diameter_mm"))
+      damping->fail("expected diameter_mm beside process damping");
+  }
+  if (friction) {
+    if (!damping) friction->fail("expected process_damping_n_per_m beside it");
+    cutter.damping_friction = friction->number(kNotNegative);
   }
 }
 
@@ -74,7 +92,8 @@ CutDocument cut_from_json(const Json& document, const Source& source) {
   const Node root = document_root(document, source, "cut");
   root.check_names({"format", "teeth", "kt_n_per_mm2", "kr_n_per_mm2", "milling", "radial_immersion",
                     "entry_deg", "exit_deg", "feed_angle_deg", "pitch_deg", "helix_deg", "diameter_mm",
-                    "chart", "provenance"});
+                    "chart", "provenance", "feed_per_tooth_mm", "process_damping_n_per_m",
+                    "process_damping_friction", "kt_std_n_per_mm2", "kr_std_n_per_mm2"});
   CutDocument cut;
   cut.cutter.teeth = root.at("teeth").integer(1, kMostTeeth);
   cut.cutter.kt_n_per_m2 = n_per_m2_from_n_per_mm2(root.at("kt_n_per_mm2").number(kPositive));
@@ -83,8 +102,18 @@ CutDocument cut_from_json(const Json& document, const Source& source) {
   if (const auto feed = root.find("feed_angle_deg")) {
     cut.cutter.feed_angle_rad = radians_from_degrees(feed->number());
   }
-  if (const auto diameter = root.find("diameter_mm")) diameter->number(kPositive);
-  refuse_what_is_not_computed(root, cut.cutter.teeth);
+  if (const auto diameter = root.find("diameter_mm"))
+    cut.cutter.diameter_m = metres_from_mm(diameter->number(kPositive));
+  read_edges(root, cut.cutter);
+  read_process_damping(root, cut.cutter);
+  if (const auto feed = root.find("feed_per_tooth_mm")) {
+    cut.feed_per_tooth_m = metres_from_mm(feed->number(kPositive));
+    if (!root.has("diameter_mm")) feed->fail("expected diameter_mm beside it");
+  }
+  if (const auto kt = root.find("kt_std_n_per_mm2"))
+    cut.deviations.kt_n_per_m2 = n_per_m2_from_n_per_mm2(kt->number(kNotNegative));
+  if (const auto kr = root.find("kr_std_n_per_mm2"))
+    cut.deviations.kr_n_per_m2 = n_per_m2_from_n_per_mm2(kr->number(kNotNegative));
   if (const auto chart = root.find("chart")) {
     chart->check_names({"speed_rpm", "depth_mm"});
     if (const auto speed = chart->find("speed_rpm")) cut.speed_rpm = chart_range(*speed, kPositive);

@@ -6,11 +6,14 @@
 #include "base/range.h"
 #include "document/json_text.h"
 #include "milling/cutter.h"
+#include "milling/sampled_stability.h"
 
 namespace stablecut {
 
 struct CutDocument {
   Cutter cutter;
+  std::optional<double> feed_per_tooth_m;  ///< with a diameter
+  CoefficientDeviations deviations;
   std::optional<Range> speed_rpm;  ///< of the chart
   std::optional<Range> depth_mm;   ///< of the chart
 };
@@ -18,7 +21,7 @@ struct CutDocument {
 /// Points along an axis of the chart when nothing says how many.
 inline constexpr int kDefaultChartCount = 64;
 
-/// Throws DataError; also for what is valid in the format but not computed: unequal pitch, a helix angle.
+/// Throws DataError.
 CutDocument cut_from_json(const Json& document, const Source& source);
 
 }  // namespace stablecut

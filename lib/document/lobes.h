@@ -1,6 +1,7 @@
 // Kind `lobes`: the stability chart.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,8 @@
 #include "document/json_text.h"
 #include "document/measured_cuts.h"
 #include "milling/lobes.h"
+#include "milling/operating_points.h"
+#include "milling/sampled_stability.h"
 
 namespace stablecut {
 
@@ -23,21 +26,57 @@ inline bool is_stable(double radius) { return radius < 1; }
 /// The limit curve of one mode alone.
 struct ModeLimit {
   int mode = 0;  ///< 1-based, in the table
-  std::vector<std::optional<StabilityLimit>> limit;
+  std::vector<std::vector<StabilityCrossing>> crossings;
+};
+
+/// Part K of N of a chart: every Nth speed from the Kth on.
+struct Shard {
+  int index = 1;  ///< K, from 1
+  int count = 1;  ///< N
+
+  /// The whole chart's speeds that are this part's.
+  template <typename T>
+  std::vector<T> part_of(const std::vector<T>& whole) const {
+    std::vector<T> part;
+    for (std::size_t i = static_cast<std::size_t>(index - 1); i < whole.size();
+         i += static_cast<std::size_t>(count))
+      part.push_back(whole[i]);
+    return part;
+  }
+};
+
+struct WhatToRun {
+  std::optional<LimitPoint> unconditional;
+  OperatingLimits limits;
+  std::vector<OperatingPoint> best;
+  std::vector<CutRate> rates;  ///< of the best, where feed and diameter are known
 };
 
 struct LobesDocument {
   Json cut;  ///< as used: the document's fields with the command line's in their place
   StabilityScheme scheme;
+  std::optional<Shard> shard;
   std::vector<double> speed_rpm;
   std::vector<double> depth_mm;
   StabilityChart chart;
+  int samples = 0;
+  std::optional<SampledStability> sampled;
   std::vector<ModeLimit> per_mode;
   std::vector<JudgedCut> points;
   double points_error = 0;  ///< largest estimated error of the points' radii
+  std::optional<WhatToRun> what_to_run;
 };
 
 /// The document without provenance.
 Json lobes_to_json(const LobesDocument& lobes);
+
+/// The chart of all the speeds of `whole` from its parts, documents written with `shard`: fills in `chart`
+/// and `sampled`; the rest must be there. Throws DataError where a part is not one, is of another chart, or
+/// is missing.
+void merge_parts(LobesDocument& whole, bool with_grid, const std::vector<Input>& parts);
+
+/// A length in metres as it is when read back from the document that it is written to, so that a chart put
+/// together from parts is the same to the last digit.
+double as_written(double metres);
 
 }  // namespace stablecut

@@ -15,8 +15,6 @@ using Complex = std::complex<double>;
 constexpr Eigen::Index kNodes = DepthScan::kNodes;
 using Coefficients = Eigen::Matrix<double, kNodes, 1>;
 
-// Of the interpolation, of max(1, radius); a branch's last coefficient is that much, its error less.
-constexpr double kTolerance = 1e-7;
 // Branches that come closer to the largest modulus than this share could be the largest.
 constexpr double kRivalGap = 0.1;
 static_assert(kRivalGap < 1 - kLeading);
@@ -129,8 +127,8 @@ double DepthScan::Branch::radius(double x) const {
   return std::abs(s / 2) + std::sqrt(discriminant);
 }
 
-DepthScan::DepthScan(const PeriodMap& map, double largest_depth_m)
-    : map_(map), largest_depth_m_(largest_depth_m) {
+DepthScan::DepthScan(const PeriodMap& map, double largest_depth_m, double tolerance)
+    : map_(map), largest_depth_m_(largest_depth_m), tolerance_(tolerance) {
   double from = 0, width = kFirstWidth * largest_depth_m;
   while (from < largest_depth_m) {
     Panel panel;
@@ -138,9 +136,9 @@ DepthScan::DepthScan(const PeriodMap& map, double largest_depth_m)
     // No sliver at the end.
     panel.to_m = from + 1.25 * width >= largest_depth_m ? largest_depth_m : from + width;
     const double error = resolve(panel);
-    panel.resolved = error <= kTolerance;
+    panel.resolved = error <= tolerance_;
     width = panel.to_m - from;
-    const double wanted = 0.8 * std::pow(kTolerance / std::max(error, 1e-30), 1.0 / (kNodes - 1));
+    const double wanted = 0.8 * std::pow(tolerance_ / std::max(error, 1e-30), 1.0 / (kNodes - 1));
     if (!panel.resolved) {
       const auto [low, high] = std::minmax_element(panel.radius.begin(), panel.radius.end());
       const double spread = *high - *low;

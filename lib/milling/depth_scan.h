@@ -26,8 +26,11 @@ class DepthScan {
  public:
   static constexpr Eigen::Index kNodes = 8;  ///< as many as the eigenvalue solver takes side by side
 
+  /// Error of the interpolation that is good enough for a chart, of max(1, radius).
+  static constexpr double kExact = 1e-7;
+
   /// Depths (0, largest_depth_m], largest_depth_m > 0. The map must outlive the scan.
-  DepthScan(const PeriodMap& map, double largest_depth_m);
+  DepthScan(const PeriodMap& map, double largest_depth_m, double tolerance = kExact);
 
   /// The spectral radius, of one tooth's pass, at each depth in [0, largest_depth_m], to some 1e-8 of max(1,
   /// radius) beside the map's own error.
@@ -68,7 +71,7 @@ class DepthScan {
   double crossing_between(double stable_m, double unstable_m) const;
 
   const PeriodMap& map_;
-  double largest_depth_m_;
+  double largest_depth_m_, tolerance_;
   std::vector<Panel> panels_;
 };
 

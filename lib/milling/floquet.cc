@@ -36,10 +36,22 @@ Eigen::VectorXcd eigenvector(const Eigen::MatrixXd& matrix, Complex value) {
 
 std::vector<Eigen::VectorXcd> leading_multipliers(const PeriodMap& map, const std::vector<double>& depths_m) {
   std::vector<Eigen::MatrixXd> maps;
-  for (const double depth : depths_m) maps.push_back(map.monodromy(depth));
+  Eigen::Index size = 0;
+  for (const double depth : depths_m) {
+    maps.push_back(map.monodromy(depth));
+    size = std::max(size, maps.back().rows());
+  }
   const Eigen::Index states = 2 * map.structure().modes();
-  if (maps.size() > 1 && static_cast<double>(maps.front().rows()) < kLongCut * static_cast<double>(states))
+  if (maps.size() > 1 && static_cast<double>(size) < kLongCut * static_cast<double>(states)) {
+    // Helical edges need other numbers of points at other depths; rows of zeros add multipliers of zero.
+    for (Eigen::MatrixXd& matrix : maps) {
+      if (matrix.rows() == size) continue;
+      Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(size, size);
+      padded.topLeftCorner(matrix.rows(), matrix.rows()) = matrix;
+      matrix = std::move(padded);
+    }
     return eigenvalues_of_each(maps);
+  }
   std::vector<Eigen::VectorXcd> values;
   for (Eigen::MatrixXd& matrix : maps) values.push_back(leading_eigenvalues(std::move(matrix), states));
   return values;

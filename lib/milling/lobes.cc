@@ -94,6 +94,12 @@ PreparedPeriod prepare_period(const TipStructure& structure, const Cutter& cutte
   return {std::move(map), error, scheme.intervals};
 }
 
+const StabilityCrossing* limit_of(const std::vector<StabilityCrossing>& crossings) {
+  const auto lowest = std::find_if(crossings.begin(), crossings.end(),
+                                   [](const StabilityCrossing& c) { return c.unstable_above; });
+  return lowest == crossings.end() ? nullptr : &*lowest;
+}
+
 StabilityChart stability_chart(const TipStructure& structure, const Cutter& cutter,
                                const std::vector<double>& revolutions_per_s,
                                const std::vector<double>& depths_m, const StabilityScheme& scheme,
@@ -102,34 +108,47 @@ StabilityChart stability_chart(const TipStructure& structure, const Cutter& cutt
   const auto depths = static_cast<Eigen::Index>(depths_m.size());
   StabilityChart chart;
   if (with_grid) chart.spectral_radius.resize(depths, static_cast<Eigen::Index>(speeds));
-  chart.limit.resize(speeds);
-  std::vector<double> error(speeds, 0.0);
-  std::vector<int> resolution(speeds, 0);
+  chart.crossings.resize(speeds);
+  chart.error.resize(speeds);
+  chart.resolution.resize(speeds);
 
   parallel_for(
       speeds, threads,
       [&](std::size_t s) {
         const PreparedPeriod period =
             prepare_period(structure, cutter, revolutions_per_s[s], scheme, depths_m.back());
-        error[s] = period.error;
-        resolution[s] = period.resolution;
+        chart.error[s] = period.error;
+        chart.resolution[s] = period.resolution;
+        if (depths_m.back() == 0) {
+          if (with_grid)
+            chart.spectral_radius.col(static_cast<Eigen::Index>(s))
+                .setConstant(spectral_radius(*period.map, 0));
+          return;
+        }
         const DepthScan scan(*period.map, depths_m.back());
         if (with_grid) {
           const std::vector<double> radii = scan.spectral_radii(depths_m);
           chart.spectral_radius.col(static_cast<Eigen::Index>(s)) =
               Eigen::Map<const Eigen::VectorXd>(radii.data(), depths);
         }
-        const auto boundaries = scan.boundaries();
-        if (!boundaries.empty())
-          chart.limit[s] = {boundaries[0].depth_m, critical_multiplier(*period.map, boundaries[0].depth_m)};
+        for (const StabilityBoundary& boundary : scan.boundaries()) {
+          const CriticalMultiplier critical = critical_multiplier(*period.map, boundary.depth_m);
+          StabilityCrossing crossing{boundary.depth_m,
+                                     boundary.unstable_above,
+                                     critical.kind,
+                                     critical.chatter_frequency_hz,
+                                     0,
+                                     0,
+                                     0};
+          crossing.lobe =
+              static_cast<int>(critical.chatter_frequency_hz * cutter.tooth_period_s(revolutions_per_s[s]));
+          Eigen::Index mode = 0;
+          crossing.participation = critical.participation.maxCoeff(&mode);
+          crossing.mode = structure.source[static_cast<std::size_t>(mode)];
+          chart.crossings[s].push_back(crossing);
+        }
       },
       progress);
-
-  if (speeds > 0) {
-    chart.error = *std::max_element(error.begin(), error.end());
-    chart.least_resolution = *std::min_element(resolution.begin(), resolution.end());
-    chart.largest_resolution = *std::max_element(resolution.begin(), resolution.end());
-  }
   return chart;
 }
 

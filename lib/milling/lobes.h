@@ -2,8 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "base/progress.h"
@@ -28,7 +28,7 @@ struct PreparedPeriod {
   /// Estimated error of the spectral radius, of max(1, radius): the change when points are added (spectral),
   /// or the distance to the spectral method (semi-discretization), the worst of a few depths.
   double error = 0;
-  int resolution = 0;  ///< points per arc, or intervals
+  int resolution = 0;  ///< points on the longest arc, or intervals
 };
 
 /// The map at one speed, good for depths up to `largest_depth_m`. The structure must outlive it. Throws
@@ -36,21 +36,29 @@ struct PreparedPeriod {
 PreparedPeriod prepare_period(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
                               const StabilityScheme& scheme, double largest_depth_m);
 
-/// Where the spectral radius passes 1.
-struct StabilityLimit {
+/// Where the spectral radius passes 1, and what chatters there.
+struct StabilityCrossing {
   double depth_m = 0;
-  CriticalMultiplier critical;
+  bool unstable_above = true;  ///< false: stable again above
+  Instability kind = Instability::kHopf;
+  double chatter_frequency_hz = 0;
+  int lobe = 0;          ///< whole waves that the chatter leaves between a tooth and the next (mean pitch)
+  std::size_t mode = 0;  ///< of the model: the one with the largest part in the tip's motion
+  double participation = 0;  ///< that part, of the motion
 };
 
 struct StabilityChart {
   Eigen::MatrixXd spectral_radius;  ///< [depths x speeds], of one tooth period; empty if unasked
-  std::vector<std::optional<StabilityLimit>> limit;  ///< [speeds]
-  double error = 0;                                  ///< largest estimated error of the spectral radius
-  int least_resolution = 0;                          ///< points per arc or intervals, over the speeds
-  int largest_resolution = 0;
+  std::vector<std::vector<StabilityCrossing>> crossings;  ///< [speeds], by depth: all of them
+  std::vector<double> error;                              ///< [speeds] estimated, of the spectral radius
+  std::vector<int> resolution;  ///< [speeds] points on the longest arc, or intervals
 };
 
-/// Depths increasing, at least one. Without `with_grid` only the limit is computed.
+/// The lowest depth at which the cut loses stability; none where it is stable to the top.
+const StabilityCrossing* limit_of(const std::vector<StabilityCrossing>& crossings);
+
+/// Depths increasing, at least one; crossings are looked for from 0 to the largest. Without `with_grid` only
+/// the crossings are computed.
 StabilityChart stability_chart(const TipStructure& structure, const Cutter& cutter,
                                const std::vector<double>& revolutions_per_s,
                                const std::vector<double>& depths_m, const StabilityScheme& scheme,

@@ -1,0 +1,131 @@
+#include "milling/operating_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "base/units.h"
+
+namespace stablecut {
+namespace {
+
+constexpr int kRefinedMinima = 3;
+constexpr int kGoldenSteps = 14;
+constexpr double kAbove = 1.1;  // of the chart's minimum: as far as limits near it matter
+
+// Lower is better; a stable speed is as good as none.
+bool lower(const std::optional<double>& a, const std::optional<double>& b) { return a && (!b || *a < *b); }
+
+LimitPoint refined_minimum(double from, double to, const LimitPoint& known, const LimitAt& limit_at) {
+  constexpr double kGolden = 0.6180339887498949;
+  LimitPoint best = known;
+  const auto evaluate = [&](double speed) {
+    LimitPoint point{speed, limit_at(speed, kAbove * *known.depth_m)};
+    if (lower(point.depth_m, best.depth_m)) best = point;
+    return point;
+  };
+  LimitPoint left = evaluate(to - kGolden * (to - from)), right = evaluate(from + kGolden * (to - from));
+  for (int step = 0; step < kGoldenSteps; ++step) {
+    if (lower(left.depth_m, right.depth_m)) {
+      to = right.revolutions_per_s;
+      right = left;
+      left = evaluate(to - kGolden * (to - from));
+    } else {
+      from = left.revolutions_per_s;
+      left = right;
+      right = evaluate(from + kGolden * (to - from));
+    }
+  }
+  return best;
+}
+
+// Speed at which the limit passes a depth, between a point where it is above and one where it is below; the
+// limit taken as straight between them, and as constant where one is unknown.
+double passing(const LimitPoint& above, const LimitPoint& below, double depth) {
+  if (!above.depth_m) return below.revolutions_per_s;
+  const double share = (*above.depth_m - depth) / (*above.depth_m - *below.depth_m);
+  return above.revolutions_per_s + share * (below.revolutions_per_s - above.revolutions_per_s);
+}
+
+}  // namespace
+
+std::optional<LimitPoint> unconditional_limit(const std::vector<LimitPoint>& chart, const LimitAt& limit_at,
+                                              int threads) {
+  std::vector<std::size_t> minima;
+  for (std::size_t i = 0; i < chart.size(); ++i) {
+    if (!chart[i].depth_m) continue;
+    const bool below_left = i == 0 || !lower(chart[i - 1].depth_m, chart[i].depth_m);
+    const bool below_right = i + 1 == chart.size() || !lower(chart[i + 1].depth_m, chart[i].depth_m);
+    if (below_left && below_right) minima.push_back(i);
+  }
+  if (minima.empty()) return std::nullopt;
+  std::stable_sort(minima.begin(), minima.end(),
+                   [&](std::size_t a, std::size_t b) { return *chart[a].depth_m < *chart[b].depth_m; });
+  if (minima.size() > kRefinedMinima) minima.resize(kRefinedMinima);
+  std::vector<LimitPoint> refined(minima.size());
+  parallel_for(minima.size(), threads, [&](std::size_t m) {
+    const std::size_t i = minima[m];
+    const double from = chart[i == 0 ? 0 : i - 1].revolutions_per_s;
+    const double to = chart[std::min(i + 1, chart.size() - 1)].revolutions_per_s;
+    refined[m] = from < to ? refined_minimum(from, to, chart[i], limit_at) : chart[i];
+  });
+  return *std::min_element(refined.begin(), refined.end(),
+                           [](const LimitPoint& a, const LimitPoint& b) { return *a.depth_m < *b.depth_m; });
+}
+
+CutRate cut_rate(const Cutter& cutter, double feed_per_tooth_m, double revolutions_per_s, double depth_m) {
+  const double width = cutter.diameter_m / 2 * (std::cos(cutter.entry_rad) - std::cos(cutter.exit_rad));
+  CutRate rate;
+  rate.removal_m3_per_s = depth_m * width * feed_per_tooth_m * cutter.teeth * revolutions_per_s;
+  rate.power_w = cutter.kt_n_per_m2 * rate.removal_m3_per_s;
+  rate.torque_n_m = rate.power_w / (kTwoPi * revolutions_per_s);
+  return rate;
+}
+
+std::vector<OperatingPoint> best_points(const std::vector<LimitPoint>& chart, const OperatingLimits& limits,
+                                        std::size_t count) {
+  // The deepest cut at each speed.
+  std::vector<double> depth(chart.size());
+  for (std::size_t i = 0; i < chart.size(); ++i) {
+    const double speed = chart[i].revolutions_per_s;
+    double deepest = limits.largest_depth_m;
+    for (const LimitPoint& other : chart) {
+      if (std::abs(other.revolutions_per_s - speed) <= limits.speed_share * speed && other.depth_m)
+        deepest = std::min(deepest, (1 - limits.depth_share) * *other.depth_m);
+    }
+    if (limits.largest_depth_times_speed)
+      deepest = std::min(deepest, *limits.largest_depth_times_speed / speed);
+    if (limits.largest_depth_by_torque) deepest = std::min(deepest, *limits.largest_depth_by_torque);
+    depth[i] = deepest;
+  }
+  const auto rate = [&](std::size_t i) { return depth[i] * chart[i].revolutions_per_s; };
+  std::vector<std::size_t> peaks;
+  for (std::size_t i = 0; i < chart.size(); ++i) {
+    const bool above_left = i == 0 || rate(i) >= rate(i - 1);
+    const bool above_right = i + 1 == chart.size() || rate(i) > rate(i + 1);
+    if (above_left && above_right && depth[i] > 0) peaks.push_back(i);
+  }
+  std::stable_sort(peaks.begin(), peaks.end(),
+                   [&](std::size_t a, std::size_t b) { return rate(a) > rate(b); });
+  if (peaks.size() > count) peaks.resize(count);
+
+  std::vector<OperatingPoint> points;
+  for (const std::size_t i : peaks) {
+    OperatingPoint point{chart[i].revolutions_per_s, depth[i], chart[i].depth_m, {}, {}};
+    const auto unstable = [&](std::size_t at) { return chart[at].depth_m && *chart[at].depth_m < depth[i]; };
+    for (std::size_t at = i; at-- > 0;) {
+      if (!unstable(at)) continue;
+      point.slowest = passing(chart[at + 1], chart[at], depth[i]);
+      break;
+    }
+    for (std::size_t at = i + 1; at < chart.size(); ++at) {
+      if (!unstable(at)) continue;
+      point.fastest = passing(chart[at - 1], chart[at], depth[i]);
+      break;
+    }
+    points.push_back(point);
+  }
+  return points;
+}
+
+}  // namespace stablecut

@@ -1,0 +1,134 @@
+#include "milling/sampled_stability.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "base/parallel.h"
+#include "base/units.h"
+#include "milling/depth_scan.h"
+#include "milling/spectral.h"
+
+namespace stablecut {
+namespace {
+
+constexpr double kTolerance = 1e-4;   // of the samples' spectral radii
+constexpr double kLeastShare = 0.01;  // of its mean that a positive parameter keeps
+constexpr double kLow = 0.025, kHigh = 0.975;
+
+// A root of a covariance: deviations are root * z with z normal. Negative eigenvalues are rounding.
+Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance) {
+  if (covariance.size() == 0) return covariance;
+  // In units of the deviations: frequencies and vectors differ by many powers of ten.
+  const Eigen::VectorXd scale = covariance.diagonal().cwiseMax(0).cwiseSqrt();
+  const Eigen::VectorXd inverse = (scale.array() > 0).select(scale.cwiseInverse(), 0.0);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(inverse.asDiagonal() * covariance *
+                                                              inverse.asDiagonal());
+  return scale.asDiagonal() * solver.eigenvectors() *
+         solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+}
+
+// The model with its parameters moved, in the order of a covariance.
+ModalModel moved(ModalModel model, const Eigen::VectorXd& by) {
+  Eigen::Index at = 0;
+  for (Mode& mode : model.modes) {
+    mode.frequency_hz = std::max(mode.frequency_hz + by[at], kLeastShare * mode.frequency_hz);
+    mode.damping_ratio = std::clamp(mode.damping_ratio + by[at + 1], kLeastShare * mode.damping_ratio, 0.99);
+    at += 2;
+    for (Eigen::VectorXcd* vector : {&mode.psi_r, &mode.psi_l}) {
+      for (auto& component : *vector) {
+        component += std::complex<double>(by[at], by[at + 1]);
+        at += 2;
+      }
+    }
+  }
+  return model;
+}
+
+// Standard normal numbers (Box and Muller), the same on every machine.
+class Normal {
+ public:
+  explicit Normal(unsigned seed) : generator_(seed) {}
+  double operator()() {
+    const double radius = std::sqrt(-2 * std::log1p(-uniform())), angle = kTwoPi * uniform();
+    return radius * std::cos(angle);
+  }
+
+ private:
+  double uniform() { return static_cast<double>(generator_() >> 11) * 0x1p-53; }
+  std::mt19937_64 generator_;
+};
+
+// Of sorted values, between the nearest two; none when that is infinite.
+std::optional<double> quantile(const std::vector<double>& sorted, double share) {
+  const double place = share * static_cast<double>(sorted.size()) - 0.5;
+  const auto last = static_cast<double>(sorted.size() - 1);
+  const double below = std::clamp(std::floor(place), 0.0, last), above = std::min(below + 1, last);
+  const double low = sorted[static_cast<std::size_t>(below)], high = sorted[static_cast<std::size_t>(above)];
+  if (!std::isfinite(high)) return std::isfinite(low) && place <= below ? std::optional(low) : std::nullopt;
+  return low + std::clamp(place - below, 0.0, 1.0) * (high - low);
+}
+
+}  // namespace
+
+std::vector<SampledCut> sampled_cuts(const ModalModel& model, const Cutter& cutter,
+                                     const CoefficientDeviations& deviations, int count, unsigned seed) {
+  const Eigen::MatrixXd root = root_of(model.covariance);
+  Normal normal(seed);
+  std::vector<SampledCut> samples;
+  while (static_cast<int>(samples.size()) < count) {
+    Eigen::VectorXd z(root.cols());
+    for (double& value : z) value = normal();
+    const Eigen::VectorXd by = root * z;
+    const double kt = deviations.kt_n_per_m2 * normal(), kr = deviations.kr_n_per_m2 * normal();
+    for (const double side : {1.0, -1.0}) {
+      SampledCut sample{tip_structure(by.size() > 0 ? moved(model, side * by) : model), cutter};
+      sample.cutter.kt_n_per_m2 = std::max(cutter.kt_n_per_m2 + side * kt, kLeastShare * cutter.kt_n_per_m2);
+      sample.cutter.kr_n_per_m2 = std::max(cutter.kr_n_per_m2 + side * kr, 0.0);
+      samples.push_back(std::move(sample));
+    }
+  }
+  samples.resize(static_cast<std::size_t>(count));
+  return samples;
+}
+
+SampledStability sampled_stability(const std::vector<SampledCut>& samples,
+                                   const std::vector<double>& revolutions_per_s,
+                                   const std::vector<double>& depths_m, const std::vector<int>& points,
+                                   bool with_grid, int threads, const Progress& progress) {
+  const std::size_t speeds = revolutions_per_s.size();
+  SampledStability result;
+  if (with_grid)
+    result.stable_share =
+        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(depths_m.size()), static_cast<Eigen::Index>(speeds));
+  result.limit_95_m.resize(speeds);
+  parallel_for(
+      speeds, threads,
+      [&](std::size_t s) {
+        std::vector<double> limits;
+        for (const SampledCut& sample : samples) {
+          const SpectralMap map(sample.structure, sample.cutter, revolutions_per_s[s], points[s]);
+          const auto boundaries = DepthScan(map, depths_m.back(), kTolerance).boundaries();
+          limits.push_back(boundaries.empty() ? std::numeric_limits<double>::infinity()
+                                              : boundaries[0].depth_m);
+          for (std::size_t i = 0; with_grid && i < depths_m.size(); ++i) {
+            const auto below =
+                std::find_if(boundaries.begin(), boundaries.end(),
+                             [&](const StabilityBoundary& b) { return b.depth_m >= depths_m[i]; });
+            // Stable up to the first boundary, and between a second and a third.
+            if ((below - boundaries.begin()) % 2 == 0)
+              result.stable_share(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(s)) +=
+                  1 / static_cast<double>(samples.size());
+          }
+        }
+        std::sort(limits.begin(), limits.end());
+        result.limit_95_m[s] = {quantile(limits, kLow), quantile(limits, kHigh)};
+      },
+      progress);
+  result.stable_share = result.stable_share.cwiseMin(1);
+  return result;
+}
+
+}  // namespace stablecut
