@@ -25,8 +25,13 @@ cut_with '.chart.speed_rpm.from = 0' '/chart/speed_rpm/from: 0: expected a numbe
 cut_with '.chart.speed_rpm.to = 10' '/chart/speed_rpm/to: 10: expected a number above from'
 cut_with '.kt_n_per_mm = 1' '/kt_n_per_mm: unknown field: expected kt_n_per_mm2'
 cut_with '.theeth = 2' '/theeth: unknown field: expected teeth'
-cut_with '.helix_deg = 30' '/helix_deg: 30: expected 0'
-cut_with '.pitch_deg = [170, 190]' '/pitch_deg: .*expected equal angles'
+cut_with '.helix_deg = 30 | del(.diameter_mm)' '/helix_deg: 30: expected diameter_mm'
+cut_with '.helix_deg = 90' '/helix_deg: 90: expected a helix angle'
+cut_with '.pitch_deg = [120, 120, 120]' '/pitch_deg: .*expected 2 angles'
+cut_with '.process_damping_n_per_m = 1e5 | del(.diameter_mm)' '/process_damping_n_per_m: .*expected diameter_mm'
+cut_with '.process_damping_friction = 0.3' '/process_damping_friction: 0.3: expected process_damping_n_per_m'
+cut_with '.feed_per_tooth_mm = 0' '/feed_per_tooth_mm: 0: expected a number above 0'
+cut_with '.kt_std_n_per_mm2 = -1' '/kt_std_n_per_mm2: -1: expected a number not below 0'
 cut_with '.pitch_deg = [170, 100]' '/pitch_deg: .*expected angles that sum to 360'
 cut_with '.format = "stablecut/cut/2"' '/format: "stablecut/cut/2": expected "stablecut/cut/1"'
 jq '.x_note = "free" | .remark = 1' "$cut" >cut.json
@@ -56,6 +61,26 @@ sed 's/7.67,/1e999,/' "$table" >huge.json
 refused 65 '^sdm-lobes: huge.json: .*/modes/0/frequency_hz' sdm-lobes --cut "$cut" huge.json
 sed 's/"dofs"/"dofs": [], "dofs"/' "$table" >twice.json
 refused 65 '^sdm-lobes: twice.json: /dofs: duplicate key' sdm-lobes --cut "$cut" twice.json
+# Options that do not go together, and parts that are not parts.
+small=(--cut "$cut" "$table" --speed 9000:12000:4 --depth 0:1:3)
+refused 64 '^sdm-lobes: --shard: 3/2: expected K/N' sdm-lobes "${small[@]}" --shard 3/2
+refused 64 '^sdm-lobes: --shard: x: expected K/N' sdm-lobes "${small[@]}" --shard x
+refused 64 '^sdm-lobes: --shard: expected at most as many parts as speeds, 4' sdm-lobes "${small[@]}" --shard 1/5
+refused 64 '^sdm-lobes: --seed: expected with --samples' sdm-lobes "${small[@]}" --seed 2
+refused 64 '^sdm-lobes: --samples: expected with --method spectral' sdm-lobes "${small[@]}" --samples 10 --method sdm
+refused 64 '^sdm-lobes: --max-power: expected feed_per_tooth_mm' sdm-lobes "${small[@]}" --max-power 500
+jq '.pitch_deg = [170, 190]' "$cut" >uneven.json
+refused 64 '^sdm-lobes: --method: sdm: expected straight teeth of equal pitch' sdm-lobes "$table" --cut uneven.json --method sdm
+sdm-lobes "${small[@]}" --shard 1/2 -o part1.json
+sdm-lobes "${small[@]}" --shard 2/2 -o part2.json
+sdm-lobes "${small[@]}" -o whole.json
+refused 65 '^sdm-lobes: part1.json: /shard/count: 2: expected 1' sdm-lobes "${small[@]}" --merge part1.json
+refused 65 '^sdm-lobes: part1.json: /shard/index: 1: expected each part once' sdm-lobes "${small[@]}" --merge part1.json --merge part1.json
+refused 65 '^sdm-lobes: whole.json: /shard: missing' sdm-lobes "${small[@]}" --merge whole.json --merge part1.json
+jq '.kt_n_per_mm2 = 700' "$cut" >other.json
+refused 65 '^sdm-lobes: part1.json: /cut: .*expected the cut and chart of this run' sdm-lobes --cut other.json "$table" \
+  --speed 9000:12000:4 --depth 0:1:3 --merge part1.json --merge part2.json
+refused 65 '^sdm-lobes: part1.json: /format: .*expected a grid as in this run' sdm-lobes "${small[@]}" --limit-only --merge part1.json --merge part2.json
 check "nothing was written" test ! -e result.json
 
 # Tested cuts.

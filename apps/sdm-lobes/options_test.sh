@@ -42,6 +42,57 @@ sdm-lobes "$table" --cut "$cut" --speed 9000:12000:3 --depth 0:3:5 --modes 15 -o
 check_jq "per mode: the limit of that mode alone" modes.json '[.per_mode[1].limit, $alone[0].limit] | transpose
   | all(((.[0].depth_mm // 0) - (.[1].depth_mm // 0)) | fabs < 1e-6)' --slurpfile alone alone.json
 
+check_jq "modes are named as in the table" modes.json '[.crossings[].mode] | all(. == 14 or . == 15)'
+
+check_jq "every limit is the lowest crossing" one.json '. as $d | [.limit[] | select(.depth_mm)] | all(. as $l
+  | [$d.crossings[] | select(.speed_rpm == $l.speed_rpm)][0] | .depth_mm == $l.depth_mm and .above == "unstable")'
+check_jq "what drives a lobe" one.json '[.crossings[]] | length > 0 and all(.mode >= 1 and .mode <= 15 and .participation > 0.1
+  and .lobe == (.chatter_frequency_hz * 60 / (2 * .speed_rpm) | floor))'
+
+jq '.feed_per_tooth_mm = 0.05' "$cut" >feed.json
+sdm-lobes "$table" --cut feed.json --speed 8000:20000:61 --depth 0:3:2 --limit-only -o run.json
+check_jq "stable at every speed: below the whole curve" run.json '. as $d | .what_to_run.unconditional.depth_mm
+  | . > 0 and . <= ([$d.limit[].depth_mm | select(.)] | min)'
+check_jq "best points: inside their margins, best first" run.json '. as $d | .what_to_run.best | length > 1
+  and all(. as $p | $p.depth_mm <= 0.9 * ($p.limit_mm // 4) + 1e-12 and ($d.limit | all((.depth_mm // 4) >= $p.depth_mm
+    or .speed_rpm <= ($p.slowest_rpm // 0) or .speed_rpm >= ($p.fastest_rpm // 1e9))))
+  and ([.[].removal_of_best] | . == (sort | reverse) and .[0] == 1)'
+check_jq "power is Kt times the removal rate" run.json '.what_to_run.best
+  | all((.power_w - 689 * .removal_cm3_per_min * 1000 / 60 / 1000) | fabs < 1e-6)'
+sdm-lobes "$table" --cut feed.json --speed 8000:20000:61 --depth 0:3:2 --limit-only --max-power 40 --max-torque 0.03 --best 2 -o most.json
+check_jq "limits of power and torque" most.json '.what_to_run.best | length == 2 and all(.power_w <= 40.0001 and .torque_n_m <= 0.030001)'
+
+for part in 1 2 3; do sdm-lobes "$table" --cut "$cut" "${small[@]}" --shard $part/3 -o part$part.json; done
+sdm-lobes "$table" --cut "$cut" "${small[@]}" --merge part3.json --merge part1.json --merge part2.json -o merged.json
+check "parts merge to the bytes of one run" cmp one.json merged.json
+jq '.kt_std_n_per_mm2 = 30 | .kr_std_n_per_mm2 = 20' "$cut" >sure.json
+sampled=(sdm-lobes "$table" --cut sure.json "${small[@]}" --samples 20)
+"${sampled[@]}" -o sampled.json
+check_jq "probability: 1 at no depth, falling to 0 where the limit is passed by far" sampled.json '. as $d
+  | (.probability_stable[0] | all(. == 1)) and ([.probability_stable | flatten[] | select(. > 0 and . < 1)] | length > 0)
+  and (.limit | all(.interval_95_mm[0] == null or .interval_95_mm[0] <= (.depth_mm // 3)))'
+for part in 1 2; do "${sampled[@]}" --shard $part/2 -o part$part.json; done
+"${sampled[@]}" --merge part1.json --merge part2.json -o merged.json
+check "parts with samples too" cmp sampled.json merged.json
+"${sampled[@]}" --threads 1 -o single.json
+check "samples: same bytes with 1 and 2 threads" cmp sampled.json single.json
+sdm-lobes "$table" --cut "$cut" "${small[@]}" --samples 2 2>said -o nothing.json
+check "samples of nothing: said" grep -q 'warning: --samples: neither a covariance' said
+
+jq '.helix_deg = 1e-7 | .pitch_deg = [180, 180]' "$cut" >plain.json
+sdm-lobes "$table" --cut plain.json "${small[@]}" -o plain-out.json
+check_jq "hardly any helix is none" plain-out.json '[.spectral_radius, $one[0].spectral_radius]
+  | map(flatten) | transpose | all((.[0] - .[1]) | fabs < 1e-6)' --slurpfile one one.json
+jq '.pitch_deg = [179.9999, 180.0001]' "$cut" >uneven.json
+sdm-lobes "$table" --cut uneven.json "${small[@]}" -o uneven-out.json
+check_jq "hardly uneven pitches are equal" uneven-out.json '[.spectral_radius, $one[0].spectral_radius]
+  | map(flatten) | transpose | all((.[0] - .[1]) | fabs < 1e-4)' --slurpfile one one.json
+jq '.modes = [{frequency_hz: 922, damping_ratio: 0.011, psi_r: [[1, 0], [0, 0]], psi_l: [[0, -0.00216], [0, 0]]}]' "$table" >mode.json
+jq '.process_damping_n_per_m = 3e4 | .process_damping_friction = 0.3' "$cut" >damped.json
+for document in $cut damped.json; do sdm-lobes mode.json --cut $document --speed 1000:2000:3 --depth 0:30:2 --limit-only; done |
+  jq -s '[.[].limit | map(.depth_mm // 30) | min]' >limits.json
+check_jq "process damping raises the lowest limit" limits.json '.[1] > 1.1 * .[0]'
+
 jq 'del(.chart)' "$cut" >nochart.json
 sdm-lobes "$table" --cut nochart.json --modes 15 -o default.json
 check_jq "64 by 64 when nothing says the chart" default.json '(.speed_rpm | length == 64) and (.depth_mm | length == 64)'

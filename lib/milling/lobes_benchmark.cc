@@ -2,6 +2,7 @@
 // each point by Eigen's dense solver, on a structure of 15 coupled modes.
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <functional>
@@ -42,10 +43,12 @@ int main() {
     std::printf(
         "200 x 100 grid and limit, 15 modes, spectral, one thread; estimated error %.1e, %d to %d points per "
         "arc\n",
-        chart.error, chart.least_resolution, chart.largest_resolution);
+        *std::max_element(chart.error.begin(), chart.error.end()),
+        *std::min_element(chart.resolution.begin(), chart.resolution.end()),
+        *std::max_element(chart.resolution.begin(), chart.resolution.end()));
   });
   const double limit =
-      seconds([&] { sink += stability_chart(structure, cutter, speeds, depths, {}, false, 1).error; });
+      seconds([&] { sink += stability_chart(structure, cutter, speeds, depths, {}, false, 1).error[0]; });
   // The baseline on a sample of the grid's points.
   int points = 0;
   const double baseline = seconds([&] {

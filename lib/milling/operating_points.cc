@@ -10,30 +10,26 @@ namespace stablecut {
 namespace {
 
 constexpr int kRefinedMinima = 3;
-constexpr int kGoldenSteps = 14;
+constexpr int kGoldenSteps = 10;
 constexpr double kAbove = 1.1;  // of the chart's minimum: as far as limits near it matter
 
 // Lower is better; a stable speed is as good as none.
 bool lower(const std::optional<double>& a, const std::optional<double>& b) { return a && (!b || *a < *b); }
 
-LimitPoint refined_minimum(double from, double to, const LimitPoint& known, const LimitAt& limit_at) {
-  constexpr double kGolden = 0.6180339887498949;
-  LimitPoint best = known;
-  const auto evaluate = [&](double speed) {
-    LimitPoint point{speed, limit_at(speed, kAbove * *known.depth_m)};
-    if (lower(point.depth_m, best.depth_m)) best = point;
-    return point;
-  };
-  LimitPoint left = evaluate(to - kGolden * (to - from)), right = evaluate(from + kGolden * (to - from));
+// Golden section between speeds around the lowest one known.
+LimitPoint refined_minimum(double from, double to, LimitPoint best, const LimitAt& limit_at) {
+  constexpr double kGolden = 0.3819660112501051;
+  const double top = kAbove * *best.depth_m;
   for (int step = 0; step < kGoldenSteps; ++step) {
-    if (lower(left.depth_m, right.depth_m)) {
-      to = right.revolutions_per_s;
-      right = left;
-      left = evaluate(to - kGolden * (to - from));
+    const double middle = best.revolutions_per_s;
+    const bool right = to - middle > middle - from;
+    const double speed = right ? middle + kGolden * (to - middle) : middle - kGolden * (middle - from);
+    const LimitPoint trial{speed, limit_at(speed, top)};
+    if (lower(trial.depth_m, best.depth_m)) {
+      (right ? from : to) = middle;
+      best = trial;
     } else {
-      from = left.revolutions_per_s;
-      left = right;
-      right = evaluate(from + kGolden * (to - from));
+      (right ? to : from) = speed;
     }
   }
   return best;

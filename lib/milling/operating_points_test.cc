@@ -1,0 +1,82 @@
+#include "milling/operating_points.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "base/units.h"
+#include "milling/milling_fixtures_test.h"
+
+using namespace stablecut;
+
+namespace {
+
+// Lobes as a comb of valleys; the lowest of them between two chart speeds.
+std::optional<double> valley(double speed) {
+  const double depth = 2e-3 + 1e-3 * std::cos(speed / 10) + 1e-5 * speed;
+  return depth < 4e-3 ? std::optional(depth) : std::nullopt;
+}
+
+std::vector<LimitPoint> chart_of_valleys() {
+  std::vector<LimitPoint> chart;
+  for (double speed = 20; speed <= 200; speed += 6) chart.push_back({speed, valley(speed)});
+  return chart;
+}
+
+}  // namespace
+
+TEST_CASE("the unconditional limit lies between the chart's speeds") {
+  const auto chart = chart_of_valleys();
+  const auto limit_at = [](double speed, double top) {
+    const auto depth = valley(speed);
+    return depth && *depth < top ? depth : std::nullopt;
+  };
+  const auto found = unconditional_limit(chart, limit_at, 1);
+  REQUIRE(found);
+  double lowest = 1, at = 0;
+  for (double speed = 20; speed < 200; speed += 0.01) {
+    if (valley(speed) && *valley(speed) < lowest) lowest = *valley(at = speed);
+  }
+  CHECK(*found->depth_m == Approx(lowest).epsilon(1e-4));
+  CHECK(found->revolutions_per_s == Approx(at).margin(0.3));
+  CHECK(unconditional_limit(chart, limit_at, 2)->depth_m == found->depth_m);
+  CHECK(!unconditional_limit({{10, {}}, {20, {}}}, limit_at, 1));
+  CHECK(unconditional_limit({{31, valley(31)}}, limit_at, 1)->revolutions_per_s == 31);
+}
+
+TEST_CASE("best points keep their margins, and power and torque limits") {
+  const auto chart = chart_of_valleys();
+  OperatingLimits limits;
+  limits.largest_depth_m = 5e-3;
+  const auto points = best_points(chart, limits, 3);
+  REQUIRE(points.size() == 3);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const OperatingPoint& point = points[i];
+    if (i > 0)
+      CHECK(point.depth_m * point.revolutions_per_s <=
+            points[i - 1].depth_m * points[i - 1].revolutions_per_s);
+    for (const LimitPoint& other : chart) {
+      if (std::abs(other.revolutions_per_s - point.revolutions_per_s) <= 0.02 * point.revolutions_per_s &&
+          other.depth_m)
+        CHECK(point.depth_m <= 0.9 * *other.depth_m * (1 + 1e-12));
+      if (other.revolutions_per_s > point.slowest.value_or(0) &&
+          other.revolutions_per_s < point.fastest.value_or(1e9))
+        CHECK(other.depth_m.value_or(1) >= point.depth_m);
+    }
+  }
+  limits.largest_depth_times_speed = 0.1;
+  for (const OperatingPoint& point : best_points(chart, limits, 9))
+    CHECK(point.depth_m * point.revolutions_per_s <= 0.1 * (1 + 1e-12));
+  limits.largest_depth_by_torque = 1e-3;
+  for (const OperatingPoint& point : best_points(chart, limits, 9)) CHECK(point.depth_m <= 1e-3);
+  CHECK(best_points(chart, limits, 0).empty());
+}
+
+TEST_CASE("removal, power and torque of a cut") {
+  Cutter cutter = fixtures::benchmark_cutter(true, 0.25, 2);
+  cutter.diameter_m = 0.012;
+  // 3 mm wide, 1 mm deep, 0.05 mm for each of two teeth, 100 turns a second: 30 mm3/s.
+  const CutRate rate = cut_rate(cutter, 0.05e-3, 100, 1e-3);
+  CHECK(rate.removal_m3_per_s == Approx(30e-9));
+  CHECK(rate.power_w == Approx(600e6 * 30e-9));
+  CHECK(rate.torque_n_m == Approx(rate.power_w / (kTwoPi * 100)));
+}

@@ -190,3 +190,26 @@ TEST_CASE("process damping converges, and it raises the limit at low speed") {
   CHECK(damped < plain - 0.01);
   CHECK(spectral_radius(SpectralMap(structure, cutter, 20, 72), 0.5e-3) == Approx(damped).epsilon(1e-8));
 }
+
+// Four teeth in a slot: two are in cut, at right angles, and their damping is the same in every direction.
+TEST_CASE("process damping of four teeth in a slot is viscous damping of the structure") {
+  const ModalModel model = fixtures::oscillator({"x", "y"});
+  Cutter cutter = fixtures::benchmark_cutter(true, 1, 4);
+  for (const double speed : {15.0, 80.0}) {
+    const double depth = 0.2e-3;
+    cutter.diameter_m = 0.02;
+    cutter.damping_n_per_m = 2e5;
+    const TipStructure structure = tip_structure(model);
+    const double damped = spectral_radius(SpectralMap(structure, cutter, speed, 90), depth);
+    ModalModel viscous = model;
+    for (Mode& mode : viscous.modes) {
+      // c / (2 m w) more, with the mass of the fixture; the residue keeps the mass.
+      mode.damping_ratio += depth * 2e5 / (kPi * 0.02 * speed) / (2 * 0.03993 * kTwoPi * 922);
+      mode.psi_l = mode.psi_r / std::complex<double>(0, 2 * 0.03993 * mode.pole().imag());
+    }
+    cutter.damping_n_per_m = 0;
+    const TipStructure stiffer = tip_structure(viscous);
+    CHECK(spectral_radius(SpectralMap(stiffer, cutter, speed, 90), depth) == Approx(damped).epsilon(1e-9));
+    CHECK(spectral_radius(SpectralMap(structure, cutter, speed, 90), depth) > damped + 0.01);
+  }
+}
