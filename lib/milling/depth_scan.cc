@@ -22,7 +22,7 @@ static_assert(kRivalGap < 1 - kLeading);
 constexpr double kShareOfGap = 0.03;
 // Panel widths, of the largest depth.
 constexpr double kFirstWidth = 1.0 / 8, kLeastWidth = 1.0 / 512, kLeastFarWidth = 1.0 / 16;
-constexpr double kMostGrowth = 3, kLeastShrink = 0.25, kUnjoinedShrink = 0.4;
+constexpr double kMostGrowth = 2.5, kLeastShrink = 0.25, kUnjoinedShrink = 0.4;
 // A pair whose members are closer than this share of their size has lost digits to the square root.
 constexpr double kMeeting = 0.02;
 constexpr int kSamples = 32;  // of a panel, when boundaries are looked for

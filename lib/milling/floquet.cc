@@ -34,27 +34,29 @@ Eigen::VectorXcd eigenvector(const Eigen::MatrixXd& matrix, Complex value) {
 
 }  // namespace
 
-std::vector<Eigen::VectorXcd> leading_multipliers(const PeriodMap& map, const std::vector<double>& depths_m) {
-  std::vector<Eigen::MatrixXd> maps;
+std::vector<Eigen::VectorXcd> leading_multipliers(std::vector<Eigen::MatrixXd> monodromy,
+                                                  Eigen::Index states) {
   Eigen::Index size = 0;
-  for (const double depth : depths_m) {
-    maps.push_back(map.monodromy(depth));
-    size = std::max(size, maps.back().rows());
-  }
-  const Eigen::Index states = 2 * map.structure().modes();
-  if (maps.size() > 1 && static_cast<double>(size) < kLongCut * static_cast<double>(states)) {
-    // Helical edges need other numbers of points at other depths; rows of zeros add multipliers of zero.
-    for (Eigen::MatrixXd& matrix : maps) {
+  for (const Eigen::MatrixXd& matrix : monodromy) size = std::max(size, matrix.rows());
+  if (monodromy.size() > 1 && static_cast<double>(size) < kLongCut * static_cast<double>(states)) {
+    // Rows of zeros add multipliers of zero.
+    for (Eigen::MatrixXd& matrix : monodromy) {
       if (matrix.rows() == size) continue;
       Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(size, size);
       padded.topLeftCorner(matrix.rows(), matrix.rows()) = matrix;
       matrix = std::move(padded);
     }
-    return eigenvalues_of_each(maps);
+    return eigenvalues_of_each(monodromy);
   }
   std::vector<Eigen::VectorXcd> values;
-  for (Eigen::MatrixXd& matrix : maps) values.push_back(leading_eigenvalues(std::move(matrix), states));
+  for (Eigen::MatrixXd& matrix : monodromy) values.push_back(leading_eigenvalues(std::move(matrix), states));
   return values;
+}
+
+std::vector<Eigen::VectorXcd> leading_multipliers(const PeriodMap& map, const std::vector<double>& depths_m) {
+  std::vector<Eigen::MatrixXd> monodromy;
+  for (const double depth : depths_m) monodromy.push_back(map.monodromy(depth));
+  return leading_multipliers(std::move(monodromy), 2 * map.structure().modes());
 }
 
 double spectral_radius(const PeriodMap& map, double depth_m) {

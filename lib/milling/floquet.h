@@ -43,8 +43,13 @@ class PeriodMap {
   int passes_;
 };
 
-/// The leading multipliers at each depth, those from three quarters of the largest on and perhaps others; of
-/// complex pairs at least the one above the real axis. Throws InvalidArgument when a map is not finite.
+/// The leading multipliers of each matrix of the map (sizes may differ), those from three quarters of the
+/// largest on and perhaps others; of complex pairs at least the one above the real axis. `states` as in
+/// leading_eigenvalues. Throws InvalidArgument when a matrix is not finite.
+std::vector<Eigen::VectorXcd> leading_multipliers(std::vector<Eigen::MatrixXd> monodromy,
+                                                  Eigen::Index states);
+
+/// The same at each depth.
 std::vector<Eigen::VectorXcd> leading_multipliers(const PeriodMap& map, const std::vector<double>& depths_m);
 
 /// Largest modulus among the multipliers, for one tooth's pass (its root where several pass in a period), at

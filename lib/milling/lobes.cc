@@ -19,7 +19,6 @@ namespace {
 // radius is large and nobody needs its last digits.
 constexpr double kConverged = 1e-8;
 constexpr int kMostPoints = 240;       // on a piece; then the error is what it is
-constexpr double kNearLimit = 2;       // a radius from which the limit is near
 constexpr double kMostHalfTurn = 1e4;  // rad in half a piece; more cannot be resolved by any number of points
 constexpr int kStagnation = 3;         // refinements without improvement, once below
 constexpr double kNearRounding = 1e-5;  // this: rounding is what is left
@@ -39,11 +38,21 @@ int first_guess(const TipStructure& structure, const Cutter& cutter, double revo
   return static_cast<int>(std::min(6 + 1.1 * half_turn, static_cast<double>(kMostPoints)));
 }
 
-// Largest error of radii against better ones, of max(1, radius).
-double largest_error(const std::vector<double>& radii, const std::vector<double>& better) {
+// The largest difference of two maps' radii over a few depths, of max(1, radius). Far above the limit a
+// radius may be astronomical, so that some are low.
+double largest_difference(const PeriodMap& map, const PeriodMap& finer, double largest_depth_m) {
+  constexpr std::array<double, 4> kShares = {1, 0.5, 0.25, 1.0 / 16};
+  std::vector<Eigen::MatrixXd> monodromy;
+  for (const PeriodMap* of : {&map, &finer}) {
+    for (const double share : kShares) monodromy.push_back(of->monodromy(share * largest_depth_m));
+  }
+  const auto multipliers = leading_multipliers(std::move(monodromy), 2 * map.structure().modes());
   double error = 0;
-  for (std::size_t i = 0; i < radii.size(); ++i)
-    error = std::max(error, std::abs(radii[i] - better[i]) / std::max(1.0, better[i]));
+  for (std::size_t i = 0; i < kShares.size(); ++i) {
+    const double radius = multipliers[i].cwiseAbs().maxCoeff();
+    const double better = multipliers[kShares.size() + i].cwiseAbs().maxCoeff();
+    error = std::max(error, std::abs(radius - better) / std::max(1.0, better));
+  }
   return error;
 }
 
@@ -54,28 +63,17 @@ PreparedPeriod converged_spectral(const TipStructure& structure, const Cutter& c
   };
   int points = first_guess(structure, cutter, revolutions_per_s, largest_depth_m);
   auto map = build(points);
-  // At the top, half way, and where the limit is near: far above it a radius may be astronomical.
-  std::vector<double> depths = {largest_depth_m, largest_depth_m / 2};
-  std::vector<double> radii = spectral_radii(*map, depths);
-  depths.push_back(largest_depth_m / 4);
-  radii.push_back(spectral_radius(*map, depths.back()));
-  for (int i = 0; i < 12 && radii.back() > kNearLimit; ++i) {
-    depths.back() /= 2;
-    radii.back() = spectral_radius(*map, depths.back());
-  }
   PreparedPeriod best;
   best.error = std::numeric_limits<double>::infinity();
   for (int without_gain = 0;;) {
     const int finer_points = points + std::max(3, points / 6);
     auto finer = build(finer_points);
-    const std::vector<double> finer_radii = spectral_radii(*finer, depths);
-    const double error = largest_error(radii, finer_radii);
+    const double error = largest_difference(*map, *finer, largest_depth_m);
     without_gain = error < best.error / 2 || error > kNearRounding ? 0 : without_gain + 1;
     if (error < best.error) best = {std::move(map), error, points};
     if (error <= kConverged || finer_points > kMostPoints || without_gain == kStagnation) return best;
     points = finer_points;
     map = std::move(finer);
-    radii = finer_radii;
   }
 }
 

@@ -62,17 +62,22 @@ STABLECUT_WIDE void reduce_to_hessenberg(double* h, Eigen::Index n, Eigen::Index
       for (Eigen::Index j = k; j < n; ++j)
         store_lanes(load_lanes(w + j * kLanes) + x * load_lanes(row + j * kLanes), w + j * kLanes);
     }
-    for (Eigen::Index i = k + 1; i < n; ++i) {
-      const Lanes x = factor * load_lanes(v + i * kLanes);
-      double* row = h + i * stride;
-      for (Eigen::Index j = k; j < n; ++j)
-        store_lanes(load_lanes(row + j * kLanes) - x * load_lanes(w + j * kLanes), row + j * kLanes);
-    }
+    // Each row from the left and then from the right, while it is near.
     for (Eigen::Index i = 0; i < n; ++i) {
       double* row = h + i * stride;
       Lanes sum{};
-      for (Eigen::Index j = k + 1; j < n; ++j)
-        sum += load_lanes(row + j * kLanes) * load_lanes(v + j * kLanes);
+      if (i > k) {
+        const Lanes x = factor * load_lanes(v + i * kLanes);
+        store_lanes(load_lanes(row + k * kLanes) - x * load_lanes(w + k * kLanes), row + k * kLanes);
+        for (Eigen::Index j = k + 1; j < n; ++j) {
+          const Lanes entry = load_lanes(row + j * kLanes) - x * load_lanes(w + j * kLanes);
+          store_lanes(entry, row + j * kLanes);
+          sum += entry * load_lanes(v + j * kLanes);
+        }
+      } else {
+        for (Eigen::Index j = k + 1; j < n; ++j)
+          sum += load_lanes(row + j * kLanes) * load_lanes(v + j * kLanes);
+      }
       sum *= factor;
       for (Eigen::Index j = k + 1; j < n; ++j)
         store_lanes(load_lanes(row + j * kLanes) - sum * load_lanes(v + j * kLanes), row + j * kLanes);
@@ -87,11 +92,41 @@ STABLECUT_WIDE void absolute_sums(const double* h, Eigen::Index entries, double*
   store_lanes(sum, sums);
 }
 
+// The reflections I - (1, q, r)^T (x, y, z) of columns k, k + 1 and k + 2 for k = from ... last - 1, in turn,
+// on rows one below the other: five lanes each in `reflections`. Each step waits for the one before, so that
+// several rows go on together.
+template <int kRows>
+STABLECUT_INLINE void reflect_rows(double* row, Eigen::Index stride, Eigen::Index from, Eigen::Index last,
+                                   const double* reflections) {
+  Lanes u0[kRows], u1[kRows];
+  for (int i = 0; i < kRows; ++i) {
+    u0[i] = load_lanes(row + i * stride + from * kLanes);
+    u1[i] = load_lanes(row + i * stride + (from + 1) * kLanes);
+  }
+  for (Eigen::Index k = from; k < last; ++k) {
+    const double* t = reflections + 5 * kLanes * k;
+    const Lanes x = load_lanes(t), y = load_lanes(t + kLanes), z = load_lanes(t + 2 * kLanes),
+                q = load_lanes(t + 3 * kLanes), r = load_lanes(t + 4 * kLanes);
+    for (int i = 0; i < kRows; ++i) {
+      double* entry = row + i * stride + k * kLanes;
+      const Lanes u2 = load_lanes(entry + 2 * kLanes);
+      const Lanes sum = x * u0[i] + y * u1[i] + z * u2;
+      store_lanes(u0[i] - sum, entry);
+      u0[i] = u1[i] - sum * q;
+      u1[i] = u2 - sum * r;
+    }
+  }
+  for (int i = 0; i < kRows; ++i) {
+    store_lanes(u0[i], row + i * stride + last * kLanes);
+    store_lanes(u1[i], row + i * stride + (last + 1) * kLanes);
+  }
+}
+
 // One double-shift sweep of each lane's block [low, high] (inactive where high < low), from the sums and
-// products of its shifts, over the rows and columns from `first` to `last`.
+// products of its shifts, over the rows and columns from `first` to `last`. `reflections` holds 5 n lanes.
 STABLECUT_WIDE void sweep(double* h, Eigen::Index stride, Eigen::Index first, Eigen::Index last,
                           const double* lows, const double* highs, const double* shift_sums,
-                          const double* shift_products) {
+                          const double* shift_products, double* reflections) {
   const Lanes low = load_lanes(lows), high = load_lanes(highs);
   const Lanes shift_sum = load_lanes(shift_sums), shift_product = load_lanes(shift_products);
   const auto at = [&](Eigen::Index i, Eigen::Index j) { return h + i * stride + j * kLanes; };
@@ -137,8 +172,8 @@ STABLECUT_WIDE void sweep(double* h, Eigen::Index stride, Eigen::Index first, Ei
       store_lanes(u1 - sum * y, row1 + j);
       store_lanes(u2 - sum * z, row2 + j);
     }
-    const Eigen::Index deepest = std::min(last, k + 3);
-    for (Eigen::Index i = first; i <= deepest; ++i) {
+    // Of the columns, now only in rows that are reflected again.
+    for (Eigen::Index i = k + 1; i <= std::min(last, k + 3); ++i) {
       double* entry = at(i, k);
       const Lanes u0 = load_lanes(entry), u1 = load_lanes(entry + kLanes),
                   u2 = load_lanes(entry + 2 * kLanes);
@@ -147,7 +182,23 @@ STABLECUT_WIDE void sweep(double* h, Eigen::Index stride, Eigen::Index first, Ei
       store_lanes(u1 - sum * q, entry + kLanes);
       store_lanes(u2 - sum * r, entry + 2 * kLanes);
     }
+    double* t = reflections + 5 * kLanes * k;
+    store_lanes(x, t);
+    store_lanes(y, t + kLanes);
+    store_lanes(z, t + 2 * kLanes);
+    store_lanes(q, t + 3 * kLanes);
+    store_lanes(r, t + 4 * kLanes);
   }
+  // The other rows once for all, from their own diagonal on, while they are near.
+  constexpr int kTogether = 4;
+  Eigen::Index i = first;
+  for (; i + kTogether < last; i += kTogether) {
+    const Eigen::Index common = i + kTogether - 1;
+    for (Eigen::Index own = i; own < common; ++own)
+      reflect_rows<1>(h + own * stride, stride, own, common, reflections);
+    reflect_rows<kTogether>(h + i * stride, stride, common, last, reflections);
+  }
+  for (; i < last; ++i) reflect_rows<1>(h + i * stride, stride, i, last, reflections);
 }
 
 // The QR iteration of one lane: its active block, and what has been found.
@@ -160,7 +211,7 @@ struct LaneProgress {
 
 class LaneQr {
  public:
-  explicit LaneQr(LaneMatrix& h) : h_(h) {
+  explicit LaneQr(LaneMatrix& h) : h_(h), reflections_(5 * h.n * kLanes) {
     absolute_sums(h.data.data(), h.data.size() / kLanes, norm_.data());
     for (LaneProgress& own : progress_) {
       own.high = h.n - 1;
@@ -185,7 +236,7 @@ class LaneQr {
         shifts(own, lane, sum[lane], product[lane]);
       }
       if (last < 0) break;
-      sweep(h_.data.data(), h_.stride, first, last, low, high, sum, product);
+      sweep(h_.data.data(), h_.stride, first, last, low, high, sum, product, reflections_.data());
     }
     return progress_;
   }
@@ -248,6 +299,7 @@ class LaneQr {
   }
 
   LaneMatrix& h_;
+  Eigen::VectorXd reflections_;
   std::array<LaneProgress, kLanes> progress_;
   std::array<double, kLanes> norm_{};
 };

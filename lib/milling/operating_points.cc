@@ -9,7 +9,7 @@
 namespace stablecut {
 namespace {
 
-constexpr int kRefinedMinima = 3;
+constexpr int kRefinedMinima = 2;
 constexpr int kGoldenSteps = 10;
 constexpr double kAbove = 1.1;  // of the chart's minimum: as far as limits near it matter
 
