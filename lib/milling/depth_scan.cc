@@ -22,9 +22,11 @@ static_assert(kRivalGap < 1 - kLeading);
 constexpr double kShareOfGap = 0.03;
 // Panel widths, of the largest depth.
 constexpr double kFirstWidth = 1.0 / 8, kLeastWidth = 1.0 / 512, kLeastFarWidth = 1.0 / 16;
-constexpr double kMostGrowth = 2.5, kLeastShrink = 0.25, kUnjoinedShrink = 0.4;
+constexpr double kMostGrowth = 1.7, kLeastShrink = 0.25, kUnjoinedShrink = 0.4;
 // A pair whose members are closer than this share of their size has lost digits to the square root.
 constexpr double kMeeting = 0.02;
+// A value farther from what is expected than this share of the largest is another multiplier's.
+constexpr double kFarthest = 0.2;
 constexpr int kSamples = 32;  // of a panel, when boundaries are looked for
 constexpr double kDepthTolerance = 1e-9;
 constexpr int kGoldenSteps = 40;
@@ -66,21 +68,47 @@ struct Track {
   std::vector<Complex> values;
 
   Eigen::Index end() const { return first + static_cast<Eigen::Index>(values.size()); }
-  // Expected at the next node: the polynomial through the last few values.
-  Complex expected() const {
-    const auto count = std::min<Eigen::Index>(4, static_cast<Eigen::Index>(values.size()));
-    const double x = node_place(end());
-    Complex sum = 0;
-    for (Eigen::Index i = end() - count; i < end(); ++i) {
-      double weight = 1;
-      for (Eigen::Index j = end() - count; j < end(); ++j) {
-        if (j != i) weight *= (x - node_place(j)) / (node_place(i) - node_place(j));
-      }
-      sum += weight * values[static_cast<std::size_t>(i - first)];
-    }
-    return sum;
-  }
 };
+
+// Values at the next node from those at the last few: weights of the polynomial through them, [nodes before].
+constexpr Eigen::Index kRemembered = 4;
+using Weights = std::array<double, kRemembered>;  // the first for the last node, and so on backwards
+
+Weights extrapolation(Eigen::Index next, Eigen::Index count) {
+  Weights weights{};
+  for (Eigen::Index i = 0; i < count; ++i) {
+    double weight = 1;
+    for (Eigen::Index j = 0; j < count; ++j) {
+      if (j != i)
+        weight *= (node_place(next) - node_place(next - 1 - j)) /
+                  (node_place(next - 1 - i) - node_place(next - 1 - j));
+    }
+    weights[static_cast<std::size_t>(i)] = weight;
+  }
+  return weights;
+}
+
+// [next node][values at hand - 1]
+const std::array<std::array<Weights, kRemembered>, kNodes>& extrapolations() {
+  static const auto all = [] {
+    std::array<std::array<Weights, kRemembered>, kNodes> table{};
+    for (Eigen::Index next = 1; next < kNodes; ++next) {
+      for (Eigen::Index count = 1; count <= std::min(kRemembered, next); ++count)
+        table[static_cast<std::size_t>(next)][static_cast<std::size_t>(count - 1)] =
+            extrapolation(next, count);
+    }
+    return table;
+  }();
+  return all;
+}
+
+Complex expected(const Track& track) {
+  const std::size_t count = std::min<std::size_t>(kRemembered, track.values.size());
+  const Weights& weights = extrapolations()[static_cast<std::size_t>(track.end())][count - 1];
+  Complex sum = 0;
+  for (std::size_t i = 0; i < count; ++i) sum += weights[i] * track.values[track.values.size() - 1 - i];
+  return sum;
+}
 
 // Joins the values of the nodes, nearest to what is expected first.
 std::vector<Track> joined(const std::array<std::vector<Complex>, kNodes>& at_node) {
@@ -92,12 +120,16 @@ std::vector<Track> joined(const std::array<std::vector<Complex>, kNodes>& at_nod
       std::size_t track, value;
     };
     std::vector<Match> matches;
+    double farthest = 0;
+    for (const Complex& value : values)
+      farthest = std::max(farthest, kFarthest * kFarthest * std::norm(value));
     for (std::size_t t = 0; t < tracks.size(); ++t) {
       if (tracks[t].end() != i) continue;
-      const Complex expected = tracks[t].expected();
+      const Complex place = expected(tracks[t]);
       for (std::size_t v = 0; v < values.size(); ++v) {
-        if (tracks[t].real == (values[v].imag() == 0))
-          matches.push_back({std::norm(values[v] - expected), t, v});
+        const double distance = std::norm(values[v] - place);
+        if (distance <= farthest && tracks[t].real == (values[v].imag() == 0))
+          matches.push_back({distance, t, v});
       }
     }
     std::sort(matches.begin(), matches.end(),
@@ -274,17 +306,20 @@ std::vector<double> DepthScan::spectral_radii(const std::vector<double>& depths_
   return result;
 }
 
-double DepthScan::radius_of_period(double depth) const {
-  return leading_multipliers(map_, {depth}).front().cwiseAbs().maxCoeff();
+Complex DepthScan::largest_multiplier(double depth) const {
+  const Eigen::VectorXcd multipliers = leading_multipliers(map_, {depth}).front();
+  Eigen::Index largest = 0;
+  multipliers.cwiseAbs().maxCoeff(&largest);
+  return multipliers[largest];
 }
 
 double DepthScan::excess(double depth) const {
   const std::optional<double> value = panel_at(depth).interpolated(depth);
-  return (value ? *value : radius_of_period(depth)) - 1;
+  return (value ? *value : std::abs(largest_multiplier(depth))) - 1;
 }
 
 // Where the excess changes sign: bisection with secant steps (Illinois), then a step with the map itself.
-double DepthScan::crossing_between(double stable_m, double unstable_m) const {
+StabilityBoundary DepthScan::boundary_between(double stable_m, double unstable_m) const {
   double stable = stable_m, unstable = unstable_m;
   double stable_excess = excess(stable), unstable_excess = excess(unstable);
   const double tolerance = kDepthTolerance * largest_depth_m_;
@@ -306,12 +341,14 @@ double DepthScan::crossing_between(double stable_m, double unstable_m) const {
       last_side = -1;
     }
   }
+  StabilityBoundary boundary{unstable, stable_m < unstable_m, largest_multiplier(unstable)};
   const Panel& panel = panel_at(unstable);
   const double step = 1e-3 * (panel.to_m - panel.from_m);
   const auto low = panel.interpolated(unstable - step), high = panel.interpolated(unstable + step);
-  if (!low || !high) return unstable;
-  const double correction = -(radius_of_period(unstable) - 1) * 2 * step / (*high - *low);
-  return std::abs(correction) < step ? unstable + correction : unstable;
+  if (!low || !high) return boundary;
+  const double correction = -(std::abs(boundary.multiplier) - 1) * 2 * step / (*high - *low);
+  if (std::abs(correction) < step) boundary.depth_m += correction;
+  return boundary;
 }
 
 // The highest (sign 1) or lowest (sign -1) excess between two depths, or the first found beyond zero (golden
@@ -350,9 +387,7 @@ std::vector<StabilityBoundary> DepthScan::boundaries() const {
   std::vector<StabilityBoundary> result;
   const auto cross = [&](const Sample& a, const Sample& b) {
     if ((a.excess > 0) == (b.excess > 0)) return;
-    const bool rises = b.excess > 0;
-    result.push_back(
-        {rises ? crossing_between(a.depth, b.depth) : crossing_between(b.depth, a.depth), rises});
+    result.push_back(b.excess > 0 ? boundary_between(a.depth, b.depth) : boundary_between(b.depth, a.depth));
   };
   for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
     // A hump that only shows between the samples: from its highest one on, when the rise may reach zero.

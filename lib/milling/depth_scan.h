@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <complex>
 #include <optional>
 #include <vector>
 
@@ -20,6 +21,7 @@ namespace stablecut {
 struct StabilityBoundary {
   double depth_m = 0;
   bool unstable_above = true;
+  std::complex<double> multiplier;  ///< that leaves the unit circle there, to some digits
 };
 
 class DepthScan {
@@ -27,7 +29,7 @@ class DepthScan {
   static constexpr Eigen::Index kNodes = 8;  ///< as many as the eigenvalue solver takes side by side
 
   /// Error of the interpolation that is good enough for a chart, of max(1, radius).
-  static constexpr double kExact = 1e-7;
+  static constexpr double kExact = 2e-7;
 
   /// Depths (0, largest_depth_m], largest_depth_m > 0. The map must outlive the scan.
   DepthScan(const PeriodMap& map, double largest_depth_m, double tolerance = kExact);
@@ -65,10 +67,10 @@ class DepthScan {
 
   double resolve(Panel& panel) const;
   const Panel& panel_at(double depth) const;
-  double radius_of_period(double depth) const;
+  std::complex<double> largest_multiplier(double depth) const;
   double excess(double depth) const;
   Sample climb(double from, double to, double sign) const;
-  double crossing_between(double stable_m, double unstable_m) const;
+  StabilityBoundary boundary_between(double stable_m, double unstable_m) const;
 
   const PeriodMap& map_;
   double largest_depth_m_, tolerance_;

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/units.h"
 #include "milling/multiplier_lanes.h"
@@ -22,14 +23,19 @@ constexpr double kMostHarmonics = 20000;
 // of several maps side by side.
 constexpr double kLongCut = 4;
 
-// By inverse iteration from a start without preference, next to the eigenvalue.
-Eigen::VectorXcd eigenvector(const Eigen::MatrixXd& matrix, Complex value) {
-  Eigen::MatrixXcd shifted = matrix.cast<Complex>();
-  shifted.diagonal().array() -= value * (1 + 1e-10);
-  const Eigen::PartialPivLU<Eigen::MatrixXcd> inverse(shifted);
-  Eigen::VectorXcd vector = Eigen::VectorXcd::Ones(matrix.rows());
-  for (int iteration = 0; iteration < 3; ++iteration) vector = inverse.solve(vector).normalized();
-  return vector;
+// An eigenvalue with its vector from one nearby: inverse iteration from a start without preference, and then
+// with the Rayleigh quotient.
+std::pair<Complex, Eigen::VectorXcd> eigenpair(const Eigen::MatrixXd& matrix, Complex near) {
+  Eigen::VectorXcd vector = Eigen::VectorXcd::Ones(matrix.rows()).normalized();
+  Complex value = near;
+  for (int round = 0; round < 2; ++round) {
+    Eigen::MatrixXcd shifted = matrix.cast<Complex>();
+    shifted.diagonal().array() -= value * (1 + 1e-10);
+    const Eigen::PartialPivLU<Eigen::MatrixXcd> inverse(shifted);
+    for (int iteration = 0; iteration < 3; ++iteration) vector = inverse.solve(vector).normalized();
+    value = vector.dot(matrix * vector);
+  }
+  return {value, vector};
 }
 
 }  // namespace
@@ -72,20 +78,17 @@ std::vector<double> spectral_radii(const PeriodMap& map, const std::vector<doubl
   return radii;
 }
 
-CriticalMultiplier critical_multiplier(const PeriodMap& map, double depth_m) {
+CriticalMultiplier critical_multiplier(const PeriodMap& map, double depth_m, Complex near) {
   const TipStructure& structure = map.structure();
-  const Eigen::MatrixXd monodromy = map.monodromy(depth_m);
-  const Eigen::VectorXcd multipliers = eigenvalues(monodromy);
-  Eigen::Index largest = 0;
-  multipliers.cwiseAbs().maxCoeff(&largest);
+  const auto [mu, vector] = eigenpair(map.monodromy(depth_m), near);
 
   CriticalMultiplier critical;
-  const Complex mu = critical.value = multipliers[largest];
+  critical.value = mu;
   if (std::abs(mu.imag()) <= kRealMultiplier * std::abs(mu)) {
     critical.kind = mu.real() < 0 ? Instability::kFlip : Instability::kFold;
   }
 
-  const std::vector<ForceImpulse> forces = map.forces(depth_m, mu, eigenvector(monodromy, mu));
+  const std::vector<ForceImpulse> forces = map.forces(depth_m, mu, vector);
   const Complex exponent = std::log(mu) / map.period_s();
   const double highest = structure.lambda.cwiseAbs().maxCoeff();
   const auto harmonics =

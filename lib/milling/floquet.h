@@ -71,6 +71,7 @@ struct CriticalMultiplier {
   /// to 1.
   Eigen::VectorXd participation;
 };
-CriticalMultiplier critical_multiplier(const PeriodMap& map, double depth_m);
+/// `near` is the largest multiplier but for some rounding or a step in depth.
+CriticalMultiplier critical_multiplier(const PeriodMap& map, double depth_m, std::complex<double> near);
 
 }  // namespace stablecut

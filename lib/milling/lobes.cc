@@ -130,7 +130,8 @@ StabilityChart stability_chart(const TipStructure& structure, const Cutter& cutt
               Eigen::Map<const Eigen::VectorXd>(radii.data(), depths);
         }
         for (const StabilityBoundary& boundary : scan.boundaries()) {
-          const CriticalMultiplier critical = critical_multiplier(*period.map, boundary.depth_m);
+          const CriticalMultiplier critical =
+              critical_multiplier(*period.map, boundary.depth_m, boundary.multiplier);
           StabilityCrossing crossing{boundary.depth_m,
                                      boundary.unstable_above,
                                      critical.kind,

@@ -317,16 +317,17 @@ std::vector<Eigen::VectorXcd> eigenvalues_of_each(const std::vector<Eigen::Matri
     std::array<const double*, kLanes> from{};
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       // Lanes without a matrix repeat the last.
-      const Eigen::MatrixXd& matrix = matrices[first + std::min(lane, count - 1)];
-      if (!matrix.allFinite())
-        throw InvalidArgument("the period's map is not finite: expected modes and depths of a usual size");
-      from[lane] = matrix.data();
+      from[lane] = matrices[first + std::min(lane, count - 1)].data();
     }
     for (Eigen::Index i = 0; i < n; ++i) {
       double* to = h.row(i);
       for (Eigen::Index j = 0; j < n; ++j)
         for (const double* lane : from) *to++ = lane[j * n + i];
     }
+    std::array<double, kLanes> sums{};
+    absolute_sums(h.data.data(), h.data.size() / kLanes, sums.data());
+    if (!std::all_of(sums.begin(), sums.end(), [](double sum) { return std::isfinite(sum); }))
+      throw InvalidArgument("the period's map is not finite: expected modes and depths of a usual size");
     reduce_to_hessenberg(h.data.data(), n, h.stride, work.data(), work.data() + n * kLanes);
     LaneQr qr(h);
     const auto& lanes = qr.run();
