@@ -14,6 +14,7 @@ namespace stablecut {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kLargestNorm = 1e120;
 constexpr int kPatience = 60;  // sweeps for one eigenvalue
 
 STABLECUT_INLINE Lanes absolute(const Lanes& x) { return x < 0.0 ? -x : x; }
@@ -25,17 +26,33 @@ STABLECUT_INLINE Lanes square_root(const Lanes& x) {
 // |size| with the sign of `like`.
 STABLECUT_INLINE Lanes with_sign(const Lanes& size, const Lanes& like) { return like < 0.0 ? -size : size; }
 
+// Lanes in memory, at whole cache lines: a vector that lies across two costs twice as much.
+class LaneArray {
+ public:
+  explicit LaneArray(Eigen::Index size) : lanes_(static_cast<std::size_t>(size)) {}
+  double* data() { return lanes_.front().value; }
+  const double* data() const { return lanes_.front().value; }
+
+ private:
+  struct alignas(kLanes * sizeof(double)) Aligned {
+    double value[kLanes] = {};
+  };
+  std::vector<Aligned> lanes_;
+};
+
 // n x n matrices in lanes, row by row, with two rows and columns of zeros after them.
 struct LaneMatrix {
   explicit LaneMatrix(Eigen::Index size)
-      : n(size), stride((size + 2) * kLanes), data(Eigen::VectorXd::Zero((size + 2) * stride)) {}
-  double* row(Eigen::Index i) { return data.data() + i * stride; }
+      : n(size), stride((size + 2) * kLanes), lanes((size + 2) * (size + 2)), data(lanes.data()) {}
+  Eigen::Index entries() const { return (n + 2) * (n + 2); }
+  double* row(Eigen::Index i) { return data + i * stride; }
   double at(Eigen::Index i, Eigen::Index j, Eigen::Index lane) const {
     return data[i * stride + j * kLanes + lane];
   }
 
   Eigen::Index n, stride;
-  Eigen::VectorXd data;
+  LaneArray lanes;
+  double* data;
 };
 
 // Householder reduction of all lanes to Hessenberg form. v and w hold n lanes.
@@ -144,22 +161,22 @@ STABLECUT_WIDE void sweep(double* h, Eigen::Index stride, Eigen::Index first, Ei
     Lanes q = starts ? a + b - shift_sum : left1;
     Lanes r = starts ? load_lanes(at(k + 2, k + 1)) : left2;
     r = here + 2.0 <= high ? r : Lanes{};
-    const Lanes size = absolute(p) + absolute(q) + absolute(r);
-    const auto inside = (here >= low) & (here < high) & (size > 0.0);
-    const Lanes inverse = 1.0 / (inside ? size : Lanes{} + 1.0);
-    p = inside ? p * inverse : Lanes{} + 1.0;
-    q = inside ? q * inverse : Lanes{};
-    r = inside ? r * inverse : Lanes{};
-    const Lanes norm = with_sign(square_root(p * p + q * q + r * r), p);
+    const Lanes square = p * p + q * q + r * r;
+    const auto inside = (here >= low) & (here < high) & (square > 0.0);
+    p = inside ? p : Lanes{} + 1.0;
+    q = inside ? q : Lanes{};
+    r = inside ? r : Lanes{};
+    const Lanes norm = with_sign(inside ? square_root(square) : Lanes{} + 1.0, p);
     if (k > first) {
       const auto chases = inside & (here > low);
-      store_lanes(chases ? -norm * size : left0, at(k, k - 1));
+      store_lanes(chases ? -norm : left0, at(k, k - 1));
       store_lanes(chases ? Lanes{} : left1, at(k + 1, k - 1));
       const auto deep = chases & (here + 2.0 <= high);
       store_lanes(deep ? Lanes{} : left2, at(k + 2, k - 1));
     }
     p += norm;
-    const Lanes by_norm = 1.0 / norm, by_p = 1.0 / p;
+    const Lanes inverse = 1.0 / (norm * p);  // divisions take long: one for both
+    const Lanes by_norm = inverse * p, by_p = inverse * norm;
     const Lanes x = inside ? p * by_norm : Lanes{}, y = inside ? q * by_norm : Lanes{},
                 z = inside ? r * by_norm : Lanes{};
     q *= by_p;
@@ -201,6 +218,29 @@ STABLECUT_WIDE void sweep(double* h, Eigen::Index stride, Eigen::Index first, Ei
   for (; i < last; ++i) reflect_rows<1>(h + i * stride, stride, i, last, reflections);
 }
 
+// Whether a subdiagonal entry is as good as zero between two diagonal ones: of their size, or nothing at all
+// beside the matrix.
+constexpr double kNothing = 1e-100;
+STABLECUT_INLINE bool is_split(double below, double size, double norm) {
+  return std::abs(below) <= std::max(kEpsilon * size, kNothing * norm);
+}
+
+// The start of the lowest unreduced block that ends at `highs` in each lane.
+STABLECUT_WIDE void find_splits(const double* h, Eigen::Index stride, Eigen::Index last, const double* highs,
+                                const double* norms, double* lows) {
+  const Lanes high = load_lanes(highs), nothing = kNothing * load_lanes(norms);
+  Lanes low{}, before = absolute(load_lanes(h));
+  for (Eigen::Index l = 1; l <= last; ++l) {
+    const double* row = h + l * stride + l * kLanes;
+    const Lanes here = absolute(load_lanes(row)), limit = kEpsilon * (before + here);
+    const Lanes least = limit > nothing ? limit : nothing;
+    const Lanes place = Lanes{} + static_cast<double>(l);
+    low = (absolute(load_lanes(row - kLanes)) <= least) & (place <= high) ? place : low;
+    before = here;
+  }
+  store_lanes(low, lows);
+}
+
 // The QR iteration of one lane: its active block, and what has been found.
 struct LaneProgress {
   Eigen::Index low = 0, high = 0;
@@ -211,8 +251,8 @@ struct LaneProgress {
 
 class LaneQr {
  public:
-  explicit LaneQr(LaneMatrix& h) : h_(h), reflections_(5 * h.n * kLanes) {
-    absolute_sums(h.data.data(), h.data.size() / kLanes, norm_.data());
+  explicit LaneQr(LaneMatrix& h) : h_(h), reflections_(5 * h.n) {
+    absolute_sums(h.data, h.entries(), norm_.data());
     for (LaneProgress& own : progress_) {
       own.high = h.n - 1;
       own.found.reserve(static_cast<std::size_t>(h.n));
@@ -221,11 +261,16 @@ class LaneQr {
 
   // The eigenvalues of each lane; none where a block does not converge.
   const std::array<LaneProgress, kLanes>& run() {
+    Eigen::Index first = 0, last = h_.n - 1;
+    alignas(64) double low[kLanes], high[kLanes], sum[kLanes], product[kLanes];
+    std::fill(high, high + kLanes, static_cast<double>(last));
     while (true) {
-      Eigen::Index first = h_.n, last = -1;
-      alignas(64) double low[kLanes], high[kLanes], sum[kLanes], product[kLanes];
+      find_splits(h_.data, h_.stride, last, high, norm_.data(), low);
+      first = h_.n;
+      last = -1;
       for (Eigen::Index lane = 0; lane < kLanes; ++lane) {
         LaneProgress& own = progress_[static_cast<std::size_t>(lane)];
+        own.low = static_cast<Eigen::Index>(low[lane]);
         deflate(own, lane);
         low[lane] = static_cast<double>(own.low);
         high[lane] = static_cast<double>(own.high);
@@ -236,7 +281,7 @@ class LaneQr {
         shifts(own, lane, sum[lane], product[lane]);
       }
       if (last < 0) break;
-      sweep(h_.data.data(), h_.stride, first, last, low, high, sum, product, reflections_.data());
+      sweep(h_.data, h_.stride, first, last, low, high, sum, product, reflections_.data());
     }
     return progress_;
   }
@@ -245,7 +290,6 @@ class LaneQr {
   // Takes off what has converged at the end of the active block.
   void deflate(LaneProgress& own, Eigen::Index lane) {
     while (own.high >= 0) {
-      own.low = find_split(own.high, lane);
       if (own.low == own.high) {
         own.found.emplace_back(h_.at(own.high, own.high, lane), 0.0);
         own.high -= 1;
@@ -255,6 +299,7 @@ class LaneQr {
       } else {
         break;
       }
+      own.low = find_split(own.high, lane);
       own.sweeps = 0;
     }
     if (own.high >= 0 && ++own.sweeps > kPatience) {
@@ -266,9 +311,8 @@ class LaneQr {
 
   Eigen::Index find_split(Eigen::Index high, Eigen::Index lane) {
     for (Eigen::Index l = high; l > 0; --l) {
-      double size = std::abs(h_.at(l - 1, l - 1, lane)) + std::abs(h_.at(l, l, lane));
-      if (size == 0) size = norm_[static_cast<std::size_t>(lane)];
-      if (std::abs(h_.at(l, l - 1, lane)) <= kEpsilon * size) return l;
+      const double size = std::abs(h_.at(l - 1, l - 1, lane)) + std::abs(h_.at(l, l, lane));
+      if (is_split(h_.at(l, l - 1, lane), size, norm_[static_cast<std::size_t>(lane)])) return l;
     }
     return 0;
   }
@@ -299,7 +343,7 @@ class LaneQr {
   }
 
   LaneMatrix& h_;
-  Eigen::VectorXd reflections_;
+  LaneArray reflections_;
   std::array<LaneProgress, kLanes> progress_;
   std::array<double, kLanes> norm_{};
 };
@@ -310,7 +354,7 @@ std::vector<Eigen::VectorXcd> eigenvalues_of_each(const std::vector<Eigen::Matri
   std::vector<Eigen::VectorXcd> result;
   if (matrices.empty()) return result;
   const Eigen::Index n = matrices.front().rows();
-  Eigen::VectorXd work(2 * n * kLanes);
+  LaneArray work(2 * n);
   for (std::size_t first = 0; first < matrices.size(); first += kLanes) {
     const std::size_t count = std::min<std::size_t>(kLanes, matrices.size() - first);
     LaneMatrix h(n);
@@ -325,10 +369,13 @@ std::vector<Eigen::VectorXcd> eigenvalues_of_each(const std::vector<Eigen::Matri
         for (const double* lane : from) *to++ = lane[j * n + i];
     }
     std::array<double, kLanes> sums{};
-    absolute_sums(h.data.data(), h.data.size() / kLanes, sums.data());
-    if (!std::all_of(sums.begin(), sums.end(), [](double sum) { return std::isfinite(sum); }))
-      throw InvalidArgument("the period's map is not finite: expected modes and depths of a usual size");
-    reduce_to_hessenberg(h.data.data(), n, h.stride, work.data(), work.data() + n * kLanes);
+    absolute_sums(h.data, h.entries(), sums.data());
+    if (!std::all_of(sums.begin(), sums.end(), [](double sum) { return sum < kLargestNorm; })) {
+      // Squares would not be finite, or the matrices are not.
+      for (std::size_t lane = 0; lane < count; ++lane) result.push_back(eigenvalues(matrices[first + lane]));
+      continue;
+    }
+    reduce_to_hessenberg(h.data, n, h.stride, work.data(), work.data() + n * kLanes);
     LaneQr qr(h);
     const auto& lanes = qr.run();
     for (std::size_t lane = 0; lane < count; ++lane) {
