@@ -40,10 +40,14 @@ class LaneArray {
   std::vector<Aligned> lanes_;
 };
 
-// n x n matrices in lanes, row by row, with two rows and columns of zeros after them.
+// n x n matrices in lanes, row by row, with two rows and columns of zeros after them; the column before the
+// first is the last of the row above, and one of zeros comes before all.
 struct LaneMatrix {
   explicit LaneMatrix(Eigen::Index size)
-      : n(size), stride((size + 2) * kLanes), lanes((size + 2) * (size + 2)), data(lanes.data()) {}
+      : n(size),
+        stride((size + 2) * kLanes),
+        lanes((size + 2) * (size + 2) + 1),
+        data(lanes.data() + kLanes) {}
   Eigen::Index entries() const { return (n + 2) * (n + 2); }
   double* row(Eigen::Index i) { return data + i * stride; }
   double at(Eigen::Index i, Eigen::Index j, Eigen::Index lane) const {
@@ -147,40 +151,34 @@ STABLECUT_WIDE void sweep(double* h, Eigen::Index stride, Eigen::Index first, Ei
   const Lanes low = load_lanes(lows), high = load_lanes(highs);
   const Lanes shift_sum = load_lanes(shift_sums), shift_product = load_lanes(shift_products);
   const auto at = [&](Eigen::Index i, Eigen::Index j) { return h + i * stride + j * kLanes; };
+  // Masks as numbers, 1 or 0: kept as such between statements they would be taken apart.
+  const Lanes zero{}, one = Lanes{} + 1.0;
   for (Eigen::Index k = first; k < last; ++k) {
     const Lanes here = Lanes{} + static_cast<double>(k);
-    // Where the block begins: first column of (H - s1)(H - s2); after it what the bulge left below column k
-    // - 1.
+    const Lanes starts = here == low ? one : zero;
+    const Lanes before_end = here < high ? one : zero, deep = here + 2.0 <= high ? one : zero;
+    // Where the block begins: first column of (H - s1)(H - s2); after it what the bulge left below column
+    // k - 1.
     const Lanes a = load_lanes(at(k, k)), b = load_lanes(at(k + 1, k + 1)), below = load_lanes(at(k + 1, k));
-    const Lanes safe = below == 0.0 ? Lanes{} + 1.0 : below;
-    const auto starts = here == low;
-    const Lanes left0 = k > 0 ? load_lanes(at(k, k - 1)) : Lanes{};
-    const Lanes left1 = k > 0 ? load_lanes(at(k + 1, k - 1)) : Lanes{};
-    const Lanes left2 = k > 0 ? load_lanes(at(k + 2, k - 1)) : Lanes{};
-    Lanes p = starts ? (a * (a - shift_sum) + shift_product) / safe + load_lanes(at(k, k + 1)) : left0;
-    Lanes q = starts ? a + b - shift_sum : left1;
-    Lanes r = starts ? load_lanes(at(k + 2, k + 1)) : left2;
-    r = here + 2.0 <= high ? r : Lanes{};
+    const Lanes safe = below == 0.0 ? one : below;
+    const Lanes left0 = load_lanes(at(k, k - 1)), left1 = load_lanes(at(k + 1, k - 1)),
+                left2 = load_lanes(at(k + 2, k - 1));
+    Lanes p = starts > 0.5 ? (a * (a - shift_sum) + shift_product) / safe + load_lanes(at(k, k + 1)) : left0;
+    Lanes q = starts > 0.5 ? a + b - shift_sum : left1;
+    Lanes r = deep * (starts > 0.5 ? load_lanes(at(k + 2, k + 1)) : left2);
     const Lanes square = p * p + q * q + r * r;
-    const auto inside = (here >= low) & (here < high) & (square > 0.0);
-    p = inside ? p : Lanes{} + 1.0;
-    q = inside ? q : Lanes{};
-    r = inside ? r : Lanes{};
-    const Lanes norm = with_sign(inside ? square_root(square) : Lanes{} + 1.0, p);
-    if (k > first) {
-      const auto chases = inside & (here > low);
-      store_lanes(chases ? -norm : left0, at(k, k - 1));
-      store_lanes(chases ? Lanes{} : left1, at(k + 1, k - 1));
-      const auto deep = chases & (here + 2.0 <= high);
-      store_lanes(deep ? Lanes{} : left2, at(k + 2, k - 1));
-    }
-    p += norm;
-    const Lanes inverse = 1.0 / (norm * p);  // divisions take long: one for both
-    const Lanes by_norm = inverse * p, by_p = inverse * norm;
-    const Lanes x = inside ? p * by_norm : Lanes{}, y = inside ? q * by_norm : Lanes{},
-                z = inside ? r * by_norm : Lanes{};
-    q *= by_p;
-    r *= by_p;
+    const Lanes inside = (square > 0.0 ? before_end : zero) * (here >= low ? one : zero);
+    const Lanes norm = with_sign(inside > 0.5 ? square_root(square) : one, p);
+    const Lanes chases = inside * (one - starts);
+    store_lanes(chases > 0.5 ? -norm : left0, at(k, k - 1));
+    store_lanes((one - chases) * left1, at(k + 1, k - 1));
+    store_lanes((one - chases * deep) * left2, at(k + 2, k - 1));
+    p = (inside > 0.5 ? p : one) + norm;
+    const Lanes inverse = one / (norm * p);  // divisions take long: one for both
+    const Lanes by_norm = inverse * inside, by_p = inverse * norm;
+    const Lanes x = p * p * by_norm, y = q * p * by_norm, z = r * p * by_norm;
+    q *= by_p * inside;
+    r *= by_p * inside;
     double *row0 = at(k, 0), *row1 = at(k + 1, 0), *row2 = at(k + 2, 0);
     for (Eigen::Index j = k * kLanes; j <= last * kLanes; j += kLanes) {
       const Lanes u0 = load_lanes(row0 + j), u1 = load_lanes(row1 + j), u2 = load_lanes(row2 + j);
@@ -235,7 +233,8 @@ STABLECUT_WIDE void find_splits(const double* h, Eigen::Index stride, Eigen::Ind
     const Lanes here = absolute(load_lanes(row)), limit = kEpsilon * (before + here);
     const Lanes least = limit > nothing ? limit : nothing;
     const Lanes place = Lanes{} + static_cast<double>(l);
-    low = (absolute(load_lanes(row - kLanes)) <= least) & (place <= high) ? place : low;
+    const Lanes split = absolute(load_lanes(row - kLanes)) <= least ? place : Lanes{};
+    low = place <= high ? (split > low ? split : low) : low;
     before = here;
   }
   store_lanes(low, lows);
