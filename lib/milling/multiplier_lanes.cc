@@ -15,6 +15,8 @@ namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kLargestNorm = 1e120;
+// Of a reflected vector; a smaller one is left as it is, nothing beside the rest.
+constexpr double kLeastSquare = 1e-280;
 constexpr int kPatience = 60;  // sweeps for one eigenvalue
 
 STABLECUT_INLINE Lanes absolute(const Lanes& x) { return x < 0.0 ? -x : x; }
@@ -167,7 +169,7 @@ STABLECUT_WIDE void sweep(double* h, Eigen::Index stride, Eigen::Index first, Ei
     Lanes q = starts > 0.5 ? a + b - shift_sum : left1;
     Lanes r = deep * (starts > 0.5 ? load_lanes(at(k + 2, k + 1)) : left2);
     const Lanes square = p * p + q * q + r * r;
-    const Lanes inside = (square > 0.0 ? before_end : zero) * (here >= low ? one : zero);
+    const Lanes inside = (square > kLeastSquare ? before_end : zero) * (here >= low ? one : zero);
     const Lanes norm = with_sign(inside > 0.5 ? square_root(square) : one, p);
     const Lanes chases = inside * (one - starts);
     store_lanes(chases > 0.5 ? -norm : left0, at(k, k - 1));
