@@ -170,12 +170,13 @@ STABLECUT_WIDE void sweep(double* h, Eigen::Index stride, Eigen::Index first, Ei
     Lanes r = deep * (starts > 0.5 ? load_lanes(at(k + 2, k + 1)) : left2);
     const Lanes square = p * p + q * q + r * r;
     const Lanes inside = (square > kLeastSquare ? before_end : zero) * (here >= low ? one : zero);
+    p = inside > 0.5 ? p : one;
     const Lanes norm = with_sign(inside > 0.5 ? square_root(square) : one, p);
     const Lanes chases = inside * (one - starts);
     store_lanes(chases > 0.5 ? -norm : left0, at(k, k - 1));
     store_lanes((one - chases) * left1, at(k + 1, k - 1));
     store_lanes((one - chases * deep) * left2, at(k + 2, k - 1));
-    p = (inside > 0.5 ? p : one) + norm;
+    p += norm;
     const Lanes inverse = one / (norm * p);  // divisions take long: one for both
     const Lanes by_norm = inverse * inside, by_p = inverse * norm;
     const Lanes x = p * p * by_norm, y = q * p * by_norm, z = r * p * by_norm;
