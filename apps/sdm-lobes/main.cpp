@@ -235,7 +235,10 @@ class SdmLobes : public cli::Tool {
       const StabilityCrossing* limit = limit_of(chart.crossings.front());
       return limit != nullptr ? std::optional(limit->depth_m) : std::nullopt;
     };
-    what.unconditional = unconditional_limit(curve, limit_at, threads());
+    what.unconditional = unconditional_limit(
+        curve, top,
+        possible_flips(structure, cut.cutter, axes.revolutions_per_s.front(), axes.revolutions_per_s.back()),
+        limit_at, threads());
     what.limits.largest_depth_m = top;
     if (depth_margin_) what.limits.depth_share = *depth_margin_;
     if (speed_margin_) what.limits.speed_share = *speed_margin_;

@@ -9,7 +9,10 @@
 namespace stablecut {
 namespace {
 
-constexpr int kRefinedMinima = 2;
+constexpr std::size_t kRefinedMinima = 2;
+constexpr double kFlipWidth = 4;  // damping ratios
+constexpr int kNarrowSteps = 4;
+constexpr double kMostWaves = 40;  // of a mode in a period: above, lobes are not narrow
 constexpr int kGoldenSteps = 10;
 constexpr double kAbove = 1.1;  // of the chart's minimum: as far as limits near it matter
 
@@ -35,6 +38,23 @@ LimitPoint refined_minimum(double from, double to, LimitPoint best, const LimitA
   return best;
 }
 
+// The lowest point of a narrow lobe inside the chart that lies below `top`, or no depth.
+LimitPoint lowest_of(const NarrowLobe& lobe, double from, double to, double top, const LimitAt& limit_at) {
+  const auto speed = [&](int i) {
+    return std::clamp(lobe.revolutions_per_s * (1 + lobe.width * i / kNarrowSteps), from, to);
+  };
+  LimitPoint best;
+  int at = 0;
+  for (int i = 0; i <= kNarrowSteps; ++i) {
+    const LimitPoint trial{speed(i), limit_at(speed(i), top)};
+    if (lower(trial.depth_m, best.depth_m)) {
+      best = trial;
+      at = i;
+    }
+  }
+  return best.depth_m ? refined_minimum(speed(at - 1), speed(at + 1), best, limit_at) : best;
+}
+
 // Speed at which the limit passes a depth, between a point where it is above and one where it is below; the
 // limit taken as straight between them, and as constant where one is unknown.
 double passing(const LimitPoint& above, const LimitPoint& below, double depth) {
@@ -45,7 +65,23 @@ double passing(const LimitPoint& above, const LimitPoint& below, double depth) {
 
 }  // namespace
 
-std::optional<LimitPoint> unconditional_limit(const std::vector<LimitPoint>& chart, const LimitAt& limit_at,
+std::vector<NarrowLobe> possible_flips(const TipStructure& structure, const Cutter& cutter, double from,
+                                       double to) {
+  const double passes = cutter.equal_pitch() ? cutter.teeth : 1;  // periods in a revolution
+  std::vector<NarrowLobe> lobes;
+  for (const auto& lambda : structure.lambda) {
+    const double turns_per_s = std::abs(lambda) / kTwoPi;
+    for (double half = std::floor(turns_per_s / (passes * to)) + 0.5; half < kMostWaves; ++half) {
+      const double speed = turns_per_s / (passes * half);
+      if (speed < from) break;
+      if (speed <= to) lobes.push_back({speed, -kFlipWidth * lambda.real() / std::abs(lambda)});
+    }
+  }
+  return lobes;
+}
+
+std::optional<LimitPoint> unconditional_limit(const std::vector<LimitPoint>& chart, double largest_depth_m,
+                                              const std::vector<NarrowLobe>& narrow, const LimitAt& limit_at,
                                               int threads) {
   std::vector<std::size_t> minima;
   for (std::size_t i = 0; i < chart.size(); ++i) {
@@ -54,19 +90,27 @@ std::optional<LimitPoint> unconditional_limit(const std::vector<LimitPoint>& cha
     const bool below_right = i + 1 == chart.size() || !lower(chart[i + 1].depth_m, chart[i].depth_m);
     if (below_left && below_right) minima.push_back(i);
   }
-  if (minima.empty()) return std::nullopt;
   std::stable_sort(minima.begin(), minima.end(),
                    [&](std::size_t a, std::size_t b) { return *chart[a].depth_m < *chart[b].depth_m; });
   if (minima.size() > kRefinedMinima) minima.resize(kRefinedMinima);
-  std::vector<LimitPoint> refined(minima.size());
-  parallel_for(minima.size(), threads, [&](std::size_t m) {
+  const double top = minima.empty() ? largest_depth_m : *chart[minima.front()].depth_m;
+
+  std::vector<LimitPoint> refined(minima.size() + narrow.size());
+  parallel_for(refined.size(), threads, [&](std::size_t m) {
+    if (m >= minima.size()) {
+      refined[m] = lowest_of(narrow[m - minima.size()], chart.front().revolutions_per_s,
+                             chart.back().revolutions_per_s, top, limit_at);
+      return;
+    }
     const std::size_t i = minima[m];
     const double from = chart[i == 0 ? 0 : i - 1].revolutions_per_s;
     const double to = chart[std::min(i + 1, chart.size() - 1)].revolutions_per_s;
     refined[m] = from < to ? refined_minimum(from, to, chart[i], limit_at) : chart[i];
   });
-  return *std::min_element(refined.begin(), refined.end(),
-                           [](const LimitPoint& a, const LimitPoint& b) { return *a.depth_m < *b.depth_m; });
+  const auto best =
+      std::min_element(refined.begin(), refined.end(),
+                       [](const LimitPoint& a, const LimitPoint& b) { return lower(a.depth_m, b.depth_m); });
+  return best != refined.end() && best->depth_m ? std::optional(*best) : std::nullopt;
 }
 
 CutRate cut_rate(const Cutter& cutter, double feed_per_tooth_m, double revolutions_per_s, double depth_m) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "milling/cutter.h"
+#include "milling/structure.h"
 
 namespace stablecut {
 
@@ -19,9 +20,22 @@ struct LimitPoint {
 /// The limit at a speed (revolutions/s), as far as it lies below a depth.
 using LimitAt = std::function<std::optional<double>(double revolutions_per_s, double largest_depth_m)>;
 
-/// The lowest limit over all speeds, searched between the chart's speeds around its lowest few minima; none
-/// when every speed is stable to the top. `limit_at` may be called from several threads.
-std::optional<LimitPoint> unconditional_limit(const std::vector<LimitPoint>& chart, const LimitAt& limit_at,
+/// A speed at which a narrow lobe may reach below the chart's points, and the share of it within which.
+struct NarrowLobe {
+  double revolutions_per_s = 0;
+  double width = 0;
+};
+
+/// Where a mode turns an odd number of half times in a period, it may flip: just above such speeds, within a
+/// few damping ratios. Those between two speeds (revolutions/s).
+std::vector<NarrowLobe> possible_flips(const TipStructure& structure, const Cutter& cutter, double from,
+                                       double to);
+
+/// The lowest limit over all speeds of the chart, searched between its speeds: around the lowest few minima,
+/// and at narrow lobes. None when every speed is stable to the largest depth. `limit_at` may be called from
+/// several threads.
+std::optional<LimitPoint> unconditional_limit(const std::vector<LimitPoint>& chart, double largest_depth_m,
+                                              const std::vector<NarrowLobe>& narrow, const LimitAt& limit_at,
                                               int threads);
 
 /// What a cut removes and takes. The chip's volume times Kt is the cutting work (no edge forces).

@@ -3,7 +3,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "base/range.h"
 #include "base/units.h"
+#include "milling/lobes.h"
 #include "milling/milling_fixtures_test.h"
 
 using namespace stablecut;
@@ -30,7 +32,7 @@ TEST_CASE("the unconditional limit lies between the chart's speeds") {
     const auto depth = valley(speed);
     return depth && *depth < top ? depth : std::nullopt;
   };
-  const auto found = unconditional_limit(chart, limit_at, 1);
+  const auto found = unconditional_limit(chart, 4e-3, {}, limit_at, 1);
   REQUIRE(found);
   double lowest = 1, at = 0;
   for (double speed = 20; speed < 200; speed += 0.01) {
@@ -38,9 +40,30 @@ TEST_CASE("the unconditional limit lies between the chart's speeds") {
   }
   CHECK(*found->depth_m == Approx(lowest).epsilon(1e-4));
   CHECK(found->revolutions_per_s == Approx(at).margin(0.3));
-  CHECK(unconditional_limit(chart, limit_at, 2)->depth_m == found->depth_m);
-  CHECK(!unconditional_limit({{10, {}}, {20, {}}}, limit_at, 1));
-  CHECK(unconditional_limit({{31, valley(31)}}, limit_at, 1)->revolutions_per_s == 31);
+  CHECK(unconditional_limit(chart, 4e-3, {}, limit_at, 2)->depth_m == found->depth_m);
+  CHECK(!unconditional_limit({{10, {}}, {20, {}}}, 1e-9, {}, limit_at, 1));
+  CHECK(unconditional_limit({{31, valley(31)}}, 4e-3, {}, limit_at, 1)->revolutions_per_s == 31);
+}
+
+// The flip of a lightly damped mode is 1 % of the speed wide: a coarse chart steps over it.
+TEST_CASE("the unconditional limit finds a flip between the chart's speeds") {
+  const TipStructure structure = tip_structure(fixtures::oscillator({"x", "y"}));
+  const Cutter cutter = fixtures::benchmark_cutter(true, 0.05);
+  const auto limit_at = [&](double speed, double top) -> std::optional<double> {
+    const auto chart = stability_chart(structure, cutter, {speed}, {top}, {}, false, 1);
+    const StabilityCrossing* limit = limit_of(chart.crossings.front());
+    return limit != nullptr ? std::optional(limit->depth_m) : std::nullopt;
+  };
+  const auto found_on = [&](int speeds) {
+    std::vector<LimitPoint> chart;
+    for (const double speed : Range{240, 390, speeds}.values())
+      chart.push_back({speed, limit_at(speed, 20e-3)});
+    return unconditional_limit(chart, 20e-3, possible_flips(structure, cutter, 240, 390), limit_at, 2);
+  };
+  const auto coarse = found_on(4), fine = found_on(300);
+  REQUIRE(coarse);
+  REQUIRE(fine);
+  CHECK(*coarse->depth_m == Approx(*fine->depth_m).epsilon(1e-3));
 }
 
 TEST_CASE("best points keep their margins, and power and torque limits") {
