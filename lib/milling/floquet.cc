@@ -22,6 +22,7 @@ constexpr double kMostHarmonics = 20000;
 // Rows of a map, in states of the structure, from which on a reduction that stops early beats the eigenvalues
 // of several maps side by side.
 constexpr double kLongCut = 4;
+constexpr Eigen::Index kSmallMap = 28;  // rows up to which it never does
 
 // An eigenvalue with its vector from one nearby: inverse iteration from a start without preference, and then
 // with the Rayleigh quotient.
@@ -44,7 +45,8 @@ std::vector<Eigen::VectorXcd> leading_multipliers(std::vector<Eigen::MatrixXd> m
                                                   Eigen::Index states) {
   Eigen::Index size = 0;
   for (const Eigen::MatrixXd& matrix : monodromy) size = std::max(size, matrix.rows());
-  if (monodromy.size() > 1 && static_cast<double>(size) < kLongCut * static_cast<double>(states)) {
+  if (monodromy.size() > 1 &&
+      (size <= kSmallMap || static_cast<double>(size) < kLongCut * static_cast<double>(states))) {
     // Rows of zeros add multipliers of zero.
     for (Eigen::MatrixXd& matrix : monodromy) {
       if (matrix.rows() == size) continue;
