@@ -17,6 +17,7 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kLargestNorm = 1e120;
 // Of a reflected vector; a smaller one is left as it is, nothing beside the rest.
 constexpr double kLeastSquare = 1e-280;
+constexpr int kRoundsBetween = 4;
 constexpr int kPatience = 60;  // sweeps for one eigenvalue
 
 STABLECUT_INLINE Lanes absolute(const Lanes& x) { return x < 0.0 ? -x : x; }
@@ -266,13 +267,16 @@ class LaneQr {
     Eigen::Index first = 0, last = h_.n - 1;
     alignas(64) double low[kLanes], high[kLanes], sum[kLanes], product[kLanes];
     std::fill(high, high + kLanes, static_cast<double>(last));
-    while (true) {
-      find_splits(h_.data, h_.stride, last, high, norm_.data(), low);
+    for (int round = 0;; ++round) {
+      // All of the block now and then; its end, where it converges, every time.
+      const bool all = round % kRoundsBetween == 0;
+      if (all) find_splits(h_.data, h_.stride, last, high, norm_.data(), low);
       first = h_.n;
       last = -1;
       for (Eigen::Index lane = 0; lane < kLanes; ++lane) {
         LaneProgress& own = progress_[static_cast<std::size_t>(lane)];
-        own.low = static_cast<Eigen::Index>(low[lane]);
+        own.low =
+            all ? static_cast<Eigen::Index>(low[lane]) : find_split(own.high, lane, own.high - 2, own.low);
         deflate(own, lane);
         low[lane] = static_cast<double>(own.low);
         high[lane] = static_cast<double>(own.high);
@@ -301,7 +305,7 @@ class LaneQr {
       } else {
         break;
       }
-      own.low = find_split(own.high, lane);
+      own.low = find_split(own.high, lane, 0, 0);
       own.sweeps = 0;
     }
     if (own.high >= 0 && ++own.sweeps > kPatience) {
@@ -311,12 +315,13 @@ class LaneQr {
     if (own.high < 0) own.low = 0;
   }
 
-  Eigen::Index find_split(Eigen::Index high, Eigen::Index lane) {
-    for (Eigen::Index l = high; l > 0; --l) {
+  // The start of the block that ends at `high`, looked for down to `least`; `otherwise` if it is not there.
+  Eigen::Index find_split(Eigen::Index high, Eigen::Index lane, Eigen::Index least, Eigen::Index otherwise) {
+    for (Eigen::Index l = high; l > std::max<Eigen::Index>(least, 0); --l) {
       const double size = std::abs(h_.at(l - 1, l - 1, lane)) + std::abs(h_.at(l, l, lane));
       if (is_split(h_.at(l, l - 1, lane), size, norm_[static_cast<std::size_t>(lane)])) return l;
     }
-    return 0;
+    return otherwise;
   }
 
   void two_values(LaneProgress& own, Eigen::Index lane) {
