@@ -95,7 +95,7 @@ class SdmLobes : public cli::Tool {
                      slash == std::string::npos ? std::nullopt : parse_integer(text.substr(slash + 1));
                  if (!index || !count || *index < 1 || *index > *count)
                    throw CLI::ValidationError("--shard", text + ": expected K/N with 1 <= K <= N");
-                 shard_ = Shard{*index, *count};
+                 shard_ = Shard{*index, *count, {}};
                },
                "Only part K of N of the chart: every Nth speed from the Kth on")
             ->type_name("K/N"));
@@ -142,8 +142,13 @@ class SdmLobes : public cli::Tool {
     if (shard_ && static_cast<std::size_t>(shard_->count) > lobes.speed_rpm.size())
       throw cli::Failure(cli::ExitStatus::kUsage, "--shard: expected at most as many parts as speeds, " +
                                                       std::to_string(lobes.speed_rpm.size()));
+    // The table's own hash, and the options that choose from it.
+    const Json of = {{"sha256", sha256(table.source.text)},
+                     {"modes", modes_.value_or(std::vector<int>{})},
+                     {"seed", seed_.value_or(1)}};
     if (shard_) {
       lobes.shard = shard_;
+      lobes.shard->of = of;
       lobes.speed_rpm = shard_->part_of(lobes.speed_rpm);
     }
     check_scheme(cut.cutter, lobes.scheme);
@@ -154,7 +159,7 @@ class SdmLobes : public cli::Tool {
     } else {
       std::vector<Input> parts;
       for (const std::string& path : part_paths_) parts.push_back(read_part(path));
-      merge_parts(lobes, !limit_only_, parts);
+      merge_parts(lobes, !limit_only_, of, parts);
     }
     if (per_mode_) lobes.per_mode = limit_of_each_mode(whole_model, cut.cutter, axes, lobes.scheme);
     judge(structure, cut.cutter, lobes);
@@ -179,6 +184,7 @@ class SdmLobes : public cli::Tool {
     usage(intervals_ && method_ != "sdm", "--intervals: expected with --method sdm only");
     usage(samples_ && method_ == "sdm", "--samples: expected with --method spectral only");
     usage(seed_ && !samples_, "--seed: expected with --samples only");
+    usage(cut_path_ == "-" && main_input() == "-", "-: expected standard input for one input only");
     usage(shard_ && !part_paths_.empty(), "--shard: expected either --shard or --merge");
     usage(shard_ && (per_mode_ || !points_path_.empty()),
           "--shard: expected --per-mode and --points with --merge, not with a part");
@@ -252,7 +258,8 @@ class SdmLobes : public cli::Tool {
       if (most_power_) what.limits.largest_depth_times_speed = *most_power_ / unit.power_w;
       if (most_torque_) what.limits.largest_depth_by_torque = *most_torque_ / unit.torque_n_m;
     }
-    what.best = best_points(curve, what.limits, static_cast<std::size_t>(best_.value_or(5)));
+    what.best =
+        best_points(curve, what.limits, static_cast<std::size_t>(best_.value_or(5)), limit_at, threads());
     if (cut.feed_per_tooth_m) {
       for (const OperatingPoint& point : what.best)
         what.rates.push_back(

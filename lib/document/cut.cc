@@ -12,6 +12,7 @@ namespace {
 constexpr int kMostTeeth = 1000;
 constexpr int kMostPoints = 1'000'000;
 constexpr double kSameDegrees = 1e-6;
+constexpr double kMostLag = 1e5;  // rad/m
 constexpr Bound kImmersion{
     .least = 0, .most = 1, .open_least = true, .words = "a radial immersion ae/D above 0 and at most 1"};
 constexpr Bound kEngagementAngle{.least = 0, .most = 180, .words = "an angle from 0 to 180 degrees"};
@@ -69,6 +70,8 @@ void read_edges(const Node& root, Cutter& cutter) {
   if (const auto helix = root.find("helix_deg"); helix && helix->number(kHelix) != 0) {
     if (!root.has("diameter_mm")) helix->fail("expected diameter_mm beside a helix angle");
     cutter.lag_rad_per_m = 2 * std::tan(radians_from_degrees(helix->number(kHelix))) / cutter.diameter_m;
+    if (std::abs(cutter.lag_rad_per_m) > kMostLag)
+      helix->fail("expected an edge that turns by less than 100 rad in a mm of depth");
   }
 }
 

@@ -101,10 +101,6 @@ Json optional_mm(const std::optional<double>& metres) {
   return metres ? Json(mm_from_metres(*metres)) : Json(nullptr);
 }
 
-Json optional_rpm(const std::optional<double>& revolutions_per_s) {
-  return revolutions_per_s ? Json(rpm_from_revolutions_per_s(*revolutions_per_s)) : Json(nullptr);
-}
-
 Json what_to_run_to_json(const WhatToRun& what) {
   Json document = {{"depth_margin", what.limits.depth_share}, {"speed_margin", what.limits.speed_share}};
   document["unconditional"] = {{"depth_mm", nullptr}};
@@ -120,8 +116,8 @@ Json what_to_run_to_json(const WhatToRun& what) {
     Json item = {{"speed_rpm", rpm_from_revolutions_per_s(point.revolutions_per_s)},
                  {"depth_mm", mm_from_metres(point.depth_m)},
                  {"limit_mm", optional_mm(point.limit_m)},
-                 {"slowest_rpm", optional_rpm(point.slowest)},
-                 {"fastest_rpm", optional_rpm(point.fastest)},
+                 {"slowest_rpm", rpm_from_revolutions_per_s(point.slowest)},
+                 {"fastest_rpm", rpm_from_revolutions_per_s(point.fastest)},
                  {"removal_of_best",
                   point.depth_m * point.revolutions_per_s / (first.depth_m * first.revolutions_per_s)}};
     if (!what.rates.empty()) {
@@ -170,7 +166,8 @@ Json lobes_to_json(const LobesDocument& lobes) {
     document["intervals"] = lobes.scheme.intervals;
   }
   if (lobes.shard) {
-    document["shard"] = {{"index", lobes.shard->index}, {"count", lobes.shard->count}};
+    document["shard"] = {
+        {"index", lobes.shard->index}, {"count", lobes.shard->count}, {"of", lobes.shard->of}};
     document["resolution"] = chart.resolution;
   }
   document["speed_rpm"] = lobes.speed_rpm;
@@ -203,7 +200,8 @@ Json lobes_to_json(const LobesDocument& lobes) {
   return document;
 }
 
-void merge_parts(LobesDocument& whole, bool with_grid, const std::vector<Input>& parts) {
+void merge_parts(LobesDocument& whole, bool with_grid, const Json& whole_of,
+                 const std::vector<Input>& parts) {
   const std::size_t speeds = whole.speed_rpm.size();
   const auto count = static_cast<int>(parts.size());
   const auto columns = static_cast<Eigen::Index>(speeds);
@@ -226,7 +224,8 @@ void merge_parts(LobesDocument& whole, bool with_grid, const std::vector<Input>&
     const Node of = root.at("shard");
     if (of.at("count").json() != count)
       of.at("count").fail("expected " + std::to_string(count) + ", the number of parts given");
-    const Shard shard{of.at("index").integer(1, count), count};
+    const Shard shard{of.at("index").integer(1, count), count, {}};
+    if (of.at("of").json() != whole_of) of.at("of").fail("expected the inputs and options of this run");
     if (seen[static_cast<std::size_t>(shard.index - 1)]) of.at("index").fail("expected each part once");
     seen[static_cast<std::size_t>(shard.index - 1)] = true;
     if (root.at("cut").json() != whole.cut) root.at("cut").fail("expected the cut and chart of this run");

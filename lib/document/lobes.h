@@ -33,6 +33,7 @@ struct ModeLimit {
 struct Shard {
   int index = 1;  ///< K, from 1
   int count = 1;  ///< N
+  Json of;        ///< what the chart was computed from, to tell parts of another one
 
   /// The whole chart's speeds that are this part's.
   template <typename T>
@@ -71,9 +72,9 @@ struct LobesDocument {
 Json lobes_to_json(const LobesDocument& lobes);
 
 /// The chart of all the speeds of `whole` from its parts, documents written with `shard`: fills in `chart`
-/// and `sampled`; the rest must be there. Throws DataError where a part is not one, is of another chart, or
-/// is missing.
-void merge_parts(LobesDocument& whole, bool with_grid, const std::vector<Input>& parts);
+/// and `sampled`; the rest must be there, and `whole_of` is what a part's `of` must be. Throws DataError
+/// where a part is not one, is of another chart, or is missing.
+void merge_parts(LobesDocument& whole, bool with_grid, const Json& whole_of, const std::vector<Input>& parts);
 
 /// A length in metres as it is when read back from the document that it is written to, so that a chart put
 /// together from parts is the same to the last digit.

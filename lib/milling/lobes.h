@@ -31,8 +31,9 @@ struct PreparedPeriod {
   int resolution = 0;  ///< points on the longest arc, or intervals
 };
 
-/// The map at one speed, good for depths up to `largest_depth_m`. The structure must outlive it. Throws
-/// NoAnswer when the speed is so low that the fastest mode cannot be followed through one cut.
+/// The map at one speed, good for depths up to `largest_depth_m` (but not where the radius is far above 1).
+/// The structure must outlive it. Throws NoAnswer when the speed is so low that the fastest mode cannot be
+/// followed through one cut, or when the radius does not converge.
 PreparedPeriod prepare_period(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
                               const StabilityScheme& scheme, double largest_depth_m);
 

@@ -184,8 +184,7 @@ class HessenbergQr {
 };
 
 void check_finite(const Eigen::MatrixXd& matrix) {
-  if (!matrix.allFinite())
-    throw InvalidArgument("the period's map is not finite: expected modes and depths of a usual size");
+  if (!matrix.allFinite()) throw InvalidArgument("the period's map is not finite");
 }
 
 Eigen::VectorXcd hessenberg_eigenvalues(const RowMatrix& hessenberg) {

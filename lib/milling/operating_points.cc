@@ -9,10 +9,11 @@
 namespace stablecut {
 namespace {
 
+constexpr double kFarthestMargins = 5;
 constexpr std::size_t kRefinedMinima = 2;
 constexpr double kFlipWidth = 4;  // damping ratios
 constexpr int kNarrowSteps = 4;
-constexpr double kMostWaves = 40;  // of a mode in a period: above, lobes are not narrow
+constexpr double kMostWaves = 4;  // of a mode in a period: above, lobes are broad
 constexpr int kGoldenSteps = 10;
 constexpr double kAbove = 1.1;  // of the chart's minimum: as far as limits near it matter
 
@@ -55,12 +56,27 @@ LimitPoint lowest_of(const NarrowLobe& lobe, double from, double to, double top,
   return best.depth_m ? refined_minimum(speed(at - 1), speed(at + 1), best, limit_at) : best;
 }
 
-// Speed at which the limit passes a depth, between a point where it is above and one where it is below; the
-// limit taken as straight between them, and as constant where one is unknown.
-double passing(const LimitPoint& above, const LimitPoint& below, double depth) {
-  if (!above.depth_m) return below.revolutions_per_s;
-  const double share = (*above.depth_m - depth) / (*above.depth_m - *below.depth_m);
-  return above.revolutions_per_s + share * (below.revolutions_per_s - above.revolutions_per_s);
+// Lowers the depth until it keeps its margin at every step around, and finds how far it is stable.
+void verify(OperatingPoint& point, double from, double to, const OperatingLimits& limits,
+            const LimitAt& limit_at) {
+  const auto speed = [&](double margins) {
+    return std::clamp(point.revolutions_per_s * (1 + margins * limits.speed_share), from, to);
+  };
+  for (int quarter = -4; quarter <= 4; ++quarter) {
+    if (const auto limit = limit_at(speed(quarter / 4.0), point.depth_m / (1 - limits.depth_share)))
+      point.depth_m = (1 - limits.depth_share) * *limit;
+  }
+  const auto farthest = [&](double direction) {
+    double reached = speed(direction);
+    for (double margins = 1.5; margins <= kFarthestMargins; margins += 0.5) {
+      const double next = speed(direction * margins);
+      if (next == reached || limit_at(next, point.depth_m)) break;
+      reached = next;
+    }
+    return reached;
+  };
+  point.slowest = farthest(-1);
+  point.fastest = farthest(1);
 }
 
 }  // namespace
@@ -123,7 +139,7 @@ CutRate cut_rate(const Cutter& cutter, double feed_per_tooth_m, double revolutio
 }
 
 std::vector<OperatingPoint> best_points(const std::vector<LimitPoint>& chart, const OperatingLimits& limits,
-                                        std::size_t count) {
+                                        std::size_t count, const LimitAt& limit_at, int threads) {
   // The deepest cut at each speed.
   std::vector<double> depth(chart.size());
   for (std::size_t i = 0; i < chart.size(); ++i) {
@@ -150,21 +166,14 @@ std::vector<OperatingPoint> best_points(const std::vector<LimitPoint>& chart, co
   if (peaks.size() > count) peaks.resize(count);
 
   std::vector<OperatingPoint> points;
-  for (const std::size_t i : peaks) {
-    OperatingPoint point{chart[i].revolutions_per_s, depth[i], chart[i].depth_m, {}, {}};
-    const auto unstable = [&](std::size_t at) { return chart[at].depth_m && *chart[at].depth_m < depth[i]; };
-    for (std::size_t at = i; at-- > 0;) {
-      if (!unstable(at)) continue;
-      point.slowest = passing(chart[at + 1], chart[at], depth[i]);
-      break;
-    }
-    for (std::size_t at = i + 1; at < chart.size(); ++at) {
-      if (!unstable(at)) continue;
-      point.fastest = passing(chart[at - 1], chart[at], depth[i]);
-      break;
-    }
-    points.push_back(point);
-  }
+  for (const std::size_t i : peaks)
+    points.push_back({chart[i].revolutions_per_s, depth[i], chart[i].depth_m});
+  parallel_for(points.size(), threads, [&](std::size_t i) {
+    verify(points[i], chart.front().revolutions_per_s, chart.back().revolutions_per_s, limits, limit_at);
+  });
+  std::stable_sort(points.begin(), points.end(), [](const OperatingPoint& a, const OperatingPoint& b) {
+    return a.depth_m * a.revolutions_per_s > b.depth_m * b.revolutions_per_s;
+  });
   return points;
 }
 

@@ -59,15 +59,16 @@ struct OperatingLimits {
 struct OperatingPoint {
   double revolutions_per_s = 0;
   double depth_m = 0;
-  std::optional<double> limit_m;  ///< at this speed
-  /// Speeds between which this depth stays below the limit; none: to the end of the chart.
-  std::optional<double> slowest, fastest;
+  std::optional<double> limit_m;    ///< at this speed
+  double slowest = 0, fastest = 0;  ///< this depth was found stable at every step between them
 };
 
 /// The best `count` points by depth times speed, that is by removal rate, best first: at each of the chart's
-/// speeds the deepest cut inside the limits; of neighbouring speeds only the best. Empty when no depth is
-/// stable at any speed.
+/// speeds the deepest cut inside the limits; of neighbouring speeds only the best. Then the limit is computed
+/// in quarters of the margin to either side and the depth lowered where it needs to be, and further steps of
+/// half the margin are taken as long as they are stable, to five margins or the chart's end. Empty when no
+/// depth is stable at any speed. `limit_at` may be called from several threads.
 std::vector<OperatingPoint> best_points(const std::vector<LimitPoint>& chart, const OperatingLimits& limits,
-                                        std::size_t count);
+                                        std::size_t count, const LimitAt& limit_at, int threads);
 
 }  // namespace stablecut

@@ -18,6 +18,11 @@ std::optional<double> valley(double speed) {
   return depth < 4e-3 ? std::optional(depth) : std::nullopt;
 }
 
+std::optional<double> limit_of_valley(double speed, double top) {
+  const auto depth = valley(speed);
+  return depth && *depth < top ? depth : std::nullopt;
+}
+
 std::vector<LimitPoint> chart_of_valleys() {
   std::vector<LimitPoint> chart;
   for (double speed = 20; speed <= 200; speed += 6) chart.push_back({speed, valley(speed)});
@@ -28,10 +33,7 @@ std::vector<LimitPoint> chart_of_valleys() {
 
 TEST_CASE("the unconditional limit lies between the chart's speeds") {
   const auto chart = chart_of_valleys();
-  const auto limit_at = [](double speed, double top) {
-    const auto depth = valley(speed);
-    return depth && *depth < top ? depth : std::nullopt;
-  };
+  const auto limit_at = limit_of_valley;
   const auto found = unconditional_limit(chart, 4e-3, {}, limit_at, 1);
   REQUIRE(found);
   double lowest = 1, at = 0;
@@ -70,28 +72,29 @@ TEST_CASE("best points keep their margins, and power and torque limits") {
   const auto chart = chart_of_valleys();
   OperatingLimits limits;
   limits.largest_depth_m = 5e-3;
-  const auto points = best_points(chart, limits, 3);
+  const auto points = best_points(chart, limits, 3, limit_of_valley, 1);
   REQUIRE(points.size() == 3);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const OperatingPoint& point = points[i];
     if (i > 0)
       CHECK(point.depth_m * point.revolutions_per_s <=
             points[i - 1].depth_m * points[i - 1].revolutions_per_s);
-    for (const LimitPoint& other : chart) {
-      if (std::abs(other.revolutions_per_s - point.revolutions_per_s) <= 0.02 * point.revolutions_per_s &&
-          other.depth_m)
-        CHECK(point.depth_m <= 0.9 * *other.depth_m * (1 + 1e-12));
-      if (other.revolutions_per_s > point.slowest.value_or(0) &&
-          other.revolutions_per_s < point.fastest.value_or(1e9))
-        CHECK(other.depth_m.value_or(1) >= point.depth_m);
+    // Between the chart's speeds too.
+    for (double share = -0.02; share <= 0.0201; share += 0.005) {
+      const double speed = std::clamp(point.revolutions_per_s * (1 + share), 20.0, 200.0);
+      CHECK(point.depth_m <= 0.9 * valley(speed).value_or(1) * (1 + 1e-9));
     }
+    CHECK(point.slowest < point.fastest);
+    CHECK(valley(point.slowest).value_or(1) >= point.depth_m);
+    CHECK(valley(point.fastest).value_or(1) >= point.depth_m);
   }
   limits.largest_depth_times_speed = 0.1;
-  for (const OperatingPoint& point : best_points(chart, limits, 9))
+  for (const OperatingPoint& point : best_points(chart, limits, 9, limit_of_valley, 2))
     CHECK(point.depth_m * point.revolutions_per_s <= 0.1 * (1 + 1e-12));
   limits.largest_depth_by_torque = 1e-3;
-  for (const OperatingPoint& point : best_points(chart, limits, 9)) CHECK(point.depth_m <= 1e-3);
-  CHECK(best_points(chart, limits, 0).empty());
+  for (const OperatingPoint& point : best_points(chart, limits, 9, limit_of_valley, 2))
+    CHECK(point.depth_m <= 1e-3);
+  CHECK(best_points(chart, limits, 0, limit_of_valley, 1).empty());
 }
 
 TEST_CASE("removal, power and torque of a cut") {

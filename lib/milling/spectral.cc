@@ -56,6 +56,7 @@ struct TimedPiece {
 };
 
 constexpr double kSameLength = 1e-12;  // of the period
+constexpr double kSameShare = 1e-6;    // pieces of one length have as many points, whatever the rounding
 constexpr int kLeastPoints = 5;        // of a piece shorter than the longest
 
 }  // namespace
@@ -93,7 +94,8 @@ Collocation collocate(const TipStructure& structure, const CutSchedule& schedule
     const int own =
         share_of_longest > 1 - kSameLength
             ? points
-            : std::min(points, kLeastPoints + static_cast<int>(std::ceil(share_of_longest * points)));
+            : std::min(points,
+                       kLeastPoints + static_cast<int>(std::ceil(share_of_longest * points - kSameShare)));
     const double length_s = (piece.to_rad - piece.from_rad) / angular_speed;
     auto shape = std::find_if(shapes.begin(), shapes.end(), [&](const Shape& other) {
       return std::abs(other.length_s - length_s) < kSameLength * period_s && other.rule.node.size() == own;
