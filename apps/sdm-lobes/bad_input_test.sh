@@ -27,6 +27,7 @@ cut_with '.kt_n_per_mm = 1' '/kt_n_per_mm: unknown field: expected kt_n_per_mm2'
 cut_with '.theeth = 2' '/theeth: unknown field: expected teeth'
 cut_with '.helix_deg = 30 | del(.diameter_mm)' '/helix_deg: 30: expected diameter_mm'
 cut_with '.helix_deg = 90' '/helix_deg: 90: expected a helix angle'
+cut_with '.helix_deg = 89.9999' '/helix_deg: 89.9999: expected an edge that turns by less'
 cut_with '.pitch_deg = [120, 120, 120]' '/pitch_deg: .*expected 2 angles'
 cut_with '.process_damping_n_per_m = 1e5 | del(.diameter_mm)' '/process_damping_n_per_m: .*expected diameter_mm'
 cut_with '.process_damping_friction = 0.3' '/process_damping_friction: 0.3: expected process_damping_n_per_m'
@@ -77,6 +78,11 @@ sdm-lobes "${small[@]}" -o whole.json
 refused 65 '^sdm-lobes: part1.json: /shard/count: 2: expected 1' sdm-lobes "${small[@]}" --merge part1.json
 refused 65 '^sdm-lobes: part1.json: /shard/index: 1: expected each part once' sdm-lobes "${small[@]}" --merge part1.json --merge part1.json
 refused 65 '^sdm-lobes: whole.json: /shard: missing' sdm-lobes "${small[@]}" --merge whole.json --merge part1.json
+jq '.modes[0].frequency_hz = 7' "$table" >other-table.json
+refused 65 '^sdm-lobes: part1.json: /shard/of: .*expected the inputs and options of this run' sdm-lobes --cut "$cut" other-table.json \
+  --speed 9000:12000:4 --depth 0:1:3 --merge part1.json --merge part2.json
+refused 64 '^sdm-lobes: -: expected standard input for one input only' sdm-lobes --cut - <"$cut"
+refused 1 '^sdm-lobes: at 20.* rpm the fastest mode turns too often' sdm-lobes --cut "$cut" "$table" --speed 20:20:1 --depth 0:1:3
 jq '.kt_n_per_mm2 = 700' "$cut" >other.json
 refused 65 '^sdm-lobes: part1.json: /cut: .*expected the cut and chart of this run' sdm-lobes --cut other.json "$table" \
   --speed 9000:12000:4 --depth 0:1:3 --merge part1.json --merge part2.json

@@ -235,11 +235,13 @@ class SdmLobes : public cli::Tool {
       if (limit != nullptr) curve.back().depth_m = as_written(limit->depth_m);
     }
     const double top = axes.depths_m.back();
-    const auto limit_at = [&](double speed, double largest_depth_m) -> std::optional<double> {
-      const auto chart =
-          stability_chart(structure, cut.cutter, {speed}, {largest_depth_m}, lobes.scheme, false, 1);
-      const StabilityCrossing* limit = limit_of(chart.crossings.front());
-      return limit != nullptr ? std::optional(limit->depth_m) : std::nullopt;
+    const auto limit_at = [&](double speed, double largest_depth_m) {
+      // As many points as the chart's speed below needed: lower speeds need more.
+      const auto above =
+          std::upper_bound(axes.revolutions_per_s.begin(), axes.revolutions_per_s.end(), speed);
+      const auto below = std::max<std::ptrdiff_t>(above - axes.revolutions_per_s.begin() - 1, 0);
+      return limit_depth(structure, cut.cutter, speed, lobes.scheme.method,
+                         lobes.chart.resolution[static_cast<std::size_t>(below)], largest_depth_m);
     };
     what.unconditional = unconditional_limit(
         curve, top,

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/progress.h"
@@ -57,6 +58,12 @@ struct StabilityChart {
 
 /// The lowest depth at which the cut loses stability; none where it is stable to the top.
 const StabilityCrossing* limit_of(const std::vector<StabilityCrossing>& crossings);
+
+/// The lowest limit below a depth at one speed, with so many points on the longest arc (or intervals) and not
+/// checked further; none where it is stable to there. Some 1e-4 of the radius may hide an island.
+std::optional<double> limit_depth(const TipStructure& structure, const Cutter& cutter,
+                                  double revolutions_per_s, StabilityMethod method, int resolution,
+                                  double largest_depth_m);
 
 /// Depths increasing, at least one; crossings are looked for from 0 to the largest. Without `with_grid` only
 /// the crossings are computed.

@@ -9,7 +9,7 @@
 namespace stablecut {
 namespace {
 
-constexpr double kFarthestMargins = 5;
+constexpr double kFarthestMargins = 3;
 constexpr std::size_t kRefinedMinima = 2;
 constexpr double kFlipWidth = 4;  // damping ratios
 constexpr int kNarrowSteps = 4;

@@ -66,7 +66,7 @@ struct OperatingPoint {
 /// The best `count` points by depth times speed, that is by removal rate, best first: at each of the chart's
 /// speeds the deepest cut inside the limits; of neighbouring speeds only the best. Then the limit is computed
 /// in quarters of the margin to either side and the depth lowered where it needs to be, and further steps of
-/// half the margin are taken as long as they are stable, to five margins or the chart's end. Empty when no
+/// half the margin are taken as long as they are stable, to three margins or the chart's end. Empty when no
 /// depth is stable at any speed. `limit_at` may be called from several threads.
 std::vector<OperatingPoint> best_points(const std::vector<LimitPoint>& chart, const OperatingLimits& limits,
                                         std::size_t count, const LimitAt& limit_at, int threads);

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/error.h"
 #include "base/units.h"
 #include "milling/exponential_moments.h"
 
@@ -121,8 +122,11 @@ Collocation collocate(const TipStructure& structure, const CutSchedule& schedule
   result.left_by.assign(static_cast<std::size_t>(rows), -1);
   result.stored = result.left_by;
   for (std::size_t b = 0; b < pieces.size(); ++b) {
+    const TimedPiece& left_by = pieces[schedule.pieces[b].left_by];
+    if (left_by.last_node - left_by.first_node != pieces[b].last_node - pieces[b].first_node)
+      throw InvalidArgument("a piece of the cut and the one that left its surface differ in length");
     const Eigen::Index own = result.nodes[pieces[b].first_node].first_row;
-    const Eigen::Index other = result.nodes[pieces[schedule.pieces[b].left_by].first_node].first_row;
+    const Eigen::Index other = result.nodes[left_by.first_node].first_row;
     const Eigen::Index end =
         pieces[b].last_node < result.nodes.size() ? result.nodes[pieces[b].last_node].first_row : rows;
     for (Eigen::Index row = own; row < end; ++row) {

@@ -33,7 +33,8 @@ struct Collocation {
   Eigen::MatrixXd final_of_state, final_of_drive;
 };
 
-/// `points` >= 1 on the longest piece, fewer on shorter ones.
+/// `points` >= 1 on the longest piece, fewer on shorter ones. Throws InvalidArgument where a piece and the
+/// one that left its surface are not of one length.
 Collocation collocate(const TipStructure& structure, const CutSchedule& schedule, double revolutions_per_s,
                       int points);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 #include "base/units.h"
@@ -211,5 +212,23 @@ TEST_CASE("process damping of four teeth in a slot is viscous damping of the str
     const TipStructure stiffer = tip_structure(viscous);
     CHECK(spectral_radius(SpectralMap(stiffer, cutter, speed, 90), depth) == Approx(damped).epsilon(1e-9));
     CHECK(spectral_radius(SpectralMap(structure, cutter, speed, 90), depth) > damped + 0.01);
+  }
+}
+
+// Pitches of 70 and 110 degrees and a cut that starts at 90: piece lengths differ in rounding only.
+TEST_CASE("unequal pitch: pieces of one length have as many points for every tooth") {
+  const TipStructure structure = tip_structure(fixtures::coupled_modes(4, 6));
+  Cutter cutter = fixtures::benchmark_cutter(false, 0.5, 4);
+  for (const auto& [entry, exit, degrees] : {std::tuple{90.0, 180.0, std::vector<double>{70, 110, 70, 110}},
+                                             std::tuple{60.0, 150.0, std::vector<double>{80, 70, 80, 130}},
+                                             std::tuple{30.0, 120.0, std::vector<double>{70, 75, 75, 140}}}) {
+    cutter.entry_rad = radians_from_degrees(entry);
+    cutter.exit_rad = radians_from_degrees(exit);
+    cutter.pitch_rad.clear();
+    for (const double angle : degrees) cutter.pitch_rad.push_back(radians_from_degrees(angle));
+    for (const int points : {7, 10, 12, 18}) {
+      const double radius = spectral_radius(SpectralMap(structure, cutter, 200, points), 1e-3);
+      CHECK(radius == Approx(spectral_radius(SpectralMap(structure, cutter, 200, 26), 1e-3)).epsilon(1e-3));
+    }
   }
 }
