@@ -86,7 +86,7 @@ refused 1 '^sdm-lobes: at 20.* rpm the fastest mode turns too often' sdm-lobes -
 jq '.kt_n_per_mm2 = 700' "$cut" >other.json
 refused 65 '^sdm-lobes: part1.json: /cut: .*expected the cut and chart of this run' sdm-lobes --cut other.json "$table" \
   --speed 9000:12000:4 --depth 0:1:3 --merge part1.json --merge part2.json
-refused 65 '^sdm-lobes: part1.json: /format: .*expected a grid as in this run' sdm-lobes "${small[@]}" --limit-only --merge part1.json --merge part2.json
+refused 65 '^sdm-lobes: part1.json: /spectral_radius: .*expected a grid as in this run' sdm-lobes "${small[@]}" --limit-only --merge part1.json --merge part2.json
 check "nothing was written" test ! -e result.json
 
 # Tested cuts.

@@ -109,6 +109,7 @@ class SdmLobes : public cli::Tool {
     check_usage();
     const Json cut_json = cut_document();
     const CutDocument cut = read_cut(cut_json);
+    check_cut(cut);
     const cli::Input table = read_main_input(true);
     const ModalModel whole_model = modal_table_from_json(table.document, table.source);
     const ModalModel model = selected_modes(whole_model, table.source);
@@ -151,7 +152,6 @@ class SdmLobes : public cli::Tool {
       lobes.shard->of = of;
       lobes.speed_rpm = shard_->part_of(lobes.speed_rpm);
     }
-    check_scheme(cut.cutter, lobes.scheme);
     lobes.samples = samples_.value_or(0);
     const ChartAxes axes(lobes);
     if (part_paths_.empty()) {
@@ -190,11 +190,19 @@ class SdmLobes : public cli::Tool {
           "--shard: expected --per-mode and --points with --merge, not with a part");
   }
 
-  void check_scheme(const Cutter& cutter, const StabilityScheme& scheme) const {
-    if (scheme.method != StabilityMethod::kSemiDiscretization) return;
-    if (!cutter.equal_pitch() || cutter.lag_rad_per_m != 0 || cutter.damping_n_per_m > 0)
+  // What the options ask of the cut.
+  void check_cut(const CutDocument& cut) const {
+    const Cutter& cutter = cut.cutter;
+    if (method_ == "sdm" &&
+        (!cutter.equal_pitch() || cutter.lag_rad_per_m != 0 || cutter.damping_n_per_m > 0)) {
       throw cli::Failure(cli::ExitStatus::kUsage,
                          "--method: sdm: expected straight teeth of equal pitch without process damping");
+    }
+    if ((most_power_ || most_torque_) && !cut.feed_per_tooth_m) {
+      throw cli::Failure(cli::ExitStatus::kUsage,
+                         (most_power_ ? std::string("--max-power") : std::string("--max-torque")) +
+                             ": expected feed_per_tooth_mm and diameter_mm in the cut");
+    }
   }
 
   void compute_chart(const TipStructure& structure, const ModalModel& model, const CutDocument& cut,
@@ -216,8 +224,7 @@ class SdmLobes : public cli::Tool {
     if (model.covariance.size() == 0 && cut.deviations.kt_n_per_m2 == 0 && cut.deviations.kr_n_per_m2 == 0)
       warn(
           "--samples: neither a covariance in the modal table nor kt_std_n_per_mm2 or kr_std_n_per_mm2 in "
-          "the cut: "
-          "every sample is the same");
+          "the cut: every sample is the same");
     cli::ProgressBar bar("sdm-lobes: samples", !quiet());
     lobes.sampled = sampled_stability(
         sampled_cuts(model, cut.cutter, cut.deviations, *samples_, static_cast<unsigned>(seed_.value_or(1))),
@@ -251,11 +258,6 @@ class SdmLobes : public cli::Tool {
     if (depth_margin_) what.limits.depth_share = *depth_margin_;
     if (speed_margin_) what.limits.speed_share = *speed_margin_;
     if (most_power_ || most_torque_) {
-      if (!cut.feed_per_tooth_m) {
-        throw cli::Failure(cli::ExitStatus::kUsage,
-                           (most_power_ ? std::string("--max-power") : std::string("--max-torque")) +
-                               ": expected feed_per_tooth_mm and diameter_mm in the cut");
-      }
       const CutRate unit = cut_rate(cut.cutter, *cut.feed_per_tooth_m, 1, 1);
       if (most_power_) what.limits.largest_depth_times_speed = *most_power_ / unit.power_w;
       if (most_torque_) what.limits.largest_depth_by_torque = *most_torque_ / unit.torque_n_m;

@@ -237,9 +237,12 @@ void merge_parts(LobesDocument& whole, bool with_grid, const Json& whole_of,
     if (root.at("speed_rpm").json() != Json(own)) root.at("speed_rpm").fail("expected this part's speeds");
     if (root.at("depth_mm").json() != Json(whole.depth_mm))
       root.at("depth_mm").fail("expected the depths of this run");
+    // The whole document's place where what should be there is not.
+    const auto member = [&](const char* name) { return root.has(name) ? root.at(name) : root; };
     if ((root.has("samples") ? root.at("samples").json() : Json(0)) != whole.samples)
-      root.at("format").fail("expected --samples of this run");
-    if (root.has("spectral_radius") != with_grid) root.at("format").fail("expected a grid as in this run");
+      member("samples").fail("expected --samples of this run");
+    if (root.has("spectral_radius") != with_grid)
+      member("spectral_radius").fail("expected a grid as in this run");
 
     const auto column = [&](std::size_t s) {
       return s * static_cast<std::size_t>(count) + static_cast<std::size_t>(shard.index - 1);

@@ -3,20 +3,10 @@
 #include <cmath>
 #include <random>
 
+#include "base/normal.h"
 #include "base/units.h"
 
 namespace stablecut {
-namespace {
-
-// Box-Muller on 53-bit uniforms: std::normal_distribution differs between standard libraries.
-std::complex<double> unit_complex_normal(std::mt19937_64& generator) {
-  const double uniform = (static_cast<double>(generator() >> 11) + 0.5) * 0x1p-53;
-  const double phase = kTwoPi * static_cast<double>(generator() >> 11) * 0x1p-53;
-  return std::polar(std::sqrt(-std::log(uniform)), phase);
-}
-
-}  // namespace
-
 Eigen::MatrixXcd receptance_at(const ModalModel& model, std::complex<double> s) {
   const auto n = static_cast<Eigen::Index>(model.dofs.size());
   Eigen::MatrixXcd h = Eigen::MatrixXcd::Zero(n, n);

@@ -21,7 +21,7 @@ struct Cutter {
   double feed_angle_rad = 0;      ///< of the feed (the cut frame's X), from the structure's +x towards +y
   std::vector<double> pitch_rad;  ///< from each tooth to the next through the cut, sum 2 pi; empty: equal
   double lag_rad_per_m = 0;       ///< of a helical edge behind its tip: 2 tan(helix) / diameter
-  double diameter_m = 0;          ///< wanted by process damping only
+  double diameter_m = 0;          ///< wanted by process damping and by cut_rate
   /// Process damping: the flank ploughs with the force C / v times depth times speed of penetration against
   /// it, and with `damping_friction` times that along the cut (v: cutting speed).
   double damping_n_per_m = 0;

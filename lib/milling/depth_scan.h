@@ -28,14 +28,15 @@ class DepthScan {
  public:
   static constexpr Eigen::Index kNodes = 8;  ///< as many as the eigenvalue solver takes side by side
 
-  /// Error of the interpolation that is good enough for a chart, of max(1, radius).
-  static constexpr double kExact = 2e-7;
+  /// Errors of the interpolation that are good enough for a chart, and where only limits are wanted (a
+  /// crossing is corrected with the map itself), of max(1, radius).
+  static constexpr double kExact = 2e-7, kForLimits = 1e-4;
 
   /// Depths (0, largest_depth_m], largest_depth_m > 0. The map must outlive the scan.
   DepthScan(const PeriodMap& map, double largest_depth_m, double tolerance = kExact);
 
-  /// The spectral radius, of one tooth's pass, at each depth in [0, largest_depth_m], to some 1e-8 of max(1,
-  /// radius) beside the map's own error.
+  /// The spectral radius, of one tooth's pass, at each depth in [0, largest_depth_m], to the tolerance beside
+  /// the map's own error.
   std::vector<double> spectral_radii(const std::vector<double>& depths_m) const;
 
   /// Every boundary of stability, increasing, to 1e-9 of the largest depth or the accuracy of the map. Two

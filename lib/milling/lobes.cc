@@ -27,10 +27,9 @@ constexpr int kMostPointsByTooth = 60;
 constexpr double kUseless = 0.01;
 // A radius from which on nobody needs its digits.
 constexpr double kFarAbove = 100;
-constexpr double kLimitTolerance = 1e-4;  // of the radius, where only the limit is wanted
-constexpr double kLeastShare = 1e-5;      // of the largest depth that is looked at
-constexpr int kStagnation = 3;            // refinements without improvement, once below
-constexpr double kNearRounding = 1e-5;    // this: rounding is what is left
+constexpr double kLeastShare = 1e-5;    // of the largest depth that is looked at
+constexpr int kStagnation = 3;          // refinements without improvement, once below
+constexpr double kNearRounding = 1e-5;  // this: rounding is what is left
 [[noreturn]] void fail_at(double revolutions_per_s, const std::string& what) {
   throw NoAnswer("at " + std::to_string(60 * revolutions_per_s) + " rpm " + what +
                  ": leave fast modes out with --modes, raise the speed, or lower the largest depth");
@@ -126,7 +125,7 @@ std::optional<double> limit_depth(const TipStructure& structure, const Cutter& c
     map = std::make_unique<SpectralMap>(structure, cutter, revolutions_per_s, resolution);
   else
     map = std::make_unique<SemiDiscretizationMap>(structure, cutter, revolutions_per_s, resolution);
-  const auto boundaries = DepthScan(*map, largest_depth_m, kLimitTolerance).boundaries();
+  const auto boundaries = DepthScan(*map, largest_depth_m, DepthScan::kForLimits).boundaries();
   return boundaries.empty() ? std::nullopt : std::optional(boundaries.front().depth_m);
 }
 

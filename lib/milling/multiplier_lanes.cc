@@ -34,7 +34,6 @@ class LaneArray {
  public:
   explicit LaneArray(Eigen::Index size) : lanes_(static_cast<std::size_t>(size)) {}
   double* data() { return lanes_.front().value; }
-  const double* data() const { return lanes_.front().value; }
 
  private:
   struct alignas(kLanes * sizeof(double)) Aligned {
@@ -254,8 +253,9 @@ struct LaneProgress {
 
 class LaneQr {
  public:
-  explicit LaneQr(LaneMatrix& h) : h_(h), reflections_(5 * h.n) {
-    absolute_sums(h.data, h.entries(), norm_.data());
+  // `norms` of the matrices: sums of absolute values.
+  LaneQr(LaneMatrix& h, const std::array<double, kLanes>& norms)
+      : h_(h), reflections_(5 * h.n), norm_(norms) {
     for (LaneProgress& own : progress_) {
       own.high = h.n - 1;
       own.found.reserve(static_cast<std::size_t>(h.n));
@@ -352,12 +352,14 @@ class LaneQr {
   LaneMatrix& h_;
   LaneArray reflections_;
   std::array<LaneProgress, kLanes> progress_;
-  std::array<double, kLanes> norm_{};
+  std::array<double, kLanes> norm_;
 };
 
 }  // namespace
 
-std::vector<Eigen::VectorXcd> eigenvalues_of_each(const std::vector<Eigen::MatrixXd>& matrices) {
+std::vector<Eigen::VectorXcd> eigenvalues_of_each(const std::vector<Eigen::MatrixXd>& matrices,
+                                                  std::size_t* alone) {
+  if (alone != nullptr) *alone = 0;
   std::vector<Eigen::VectorXcd> result;
   if (matrices.empty()) return result;
   const Eigen::Index n = matrices.front().rows();
@@ -380,13 +382,15 @@ std::vector<Eigen::VectorXcd> eigenvalues_of_each(const std::vector<Eigen::Matri
     if (!std::all_of(sums.begin(), sums.end(), [](double sum) { return sum < kLargestNorm; })) {
       // Squares would not be finite, or the matrices are not.
       for (std::size_t lane = 0; lane < count; ++lane) result.push_back(eigenvalues(matrices[first + lane]));
+      if (alone != nullptr) *alone += count;
       continue;
     }
     reduce_to_hessenberg(h.data, n, h.stride, work.data(), work.data() + n * kLanes);
-    LaneQr qr(h);
+    LaneQr qr(h, sums);
     const auto& lanes = qr.run();
     for (std::size_t lane = 0; lane < count; ++lane) {
       const auto& found = lanes[lane].found;
+      if (alone != nullptr && lanes[lane].stuck) ++*alone;
       result.push_back(lanes[lane].stuck
                            ? eigenvalues(matrices[first + lane])
                            : Eigen::VectorXcd(Eigen::Map<const Eigen::VectorXcd>(found.data(), n)));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 namespace stablecut {
@@ -11,6 +12,9 @@ namespace stablecut {
 /// Householder reduction to Hessenberg form, then the implicit double-shift QR iteration on each matrix's
 /// active block, some 8 n^3 flops each. The matrices go through in step, eight at a time, so those whose
 /// spectra are alike cost least. Backward stable. Throws InvalidArgument when an entry is not finite.
-std::vector<Eigen::VectorXcd> eigenvalues_of_each(const std::vector<Eigen::MatrixXd>& matrices);
+/// Where the iteration stalls, or squares of entries would overflow, a matrix is solved by itself; `alone`
+/// counts those.
+std::vector<Eigen::VectorXcd> eigenvalues_of_each(const std::vector<Eigen::MatrixXd>& matrices,
+                                                  std::size_t* alone = nullptr);
 
 }  // namespace stablecut

@@ -89,9 +89,11 @@ TEST_CASE("best points keep their margins, and power and torque limits") {
     CHECK(valley(point.fastest).value_or(1) >= point.depth_m);
   }
   limits.largest_depth_times_speed = 0.1;
+  REQUIRE(!best_points(chart, limits, 9, limit_of_valley, 2).empty());
   for (const OperatingPoint& point : best_points(chart, limits, 9, limit_of_valley, 2))
     CHECK(point.depth_m * point.revolutions_per_s <= 0.1 * (1 + 1e-12));
   limits.largest_depth_by_torque = 1e-3;
+  REQUIRE(!best_points(chart, limits, 9, limit_of_valley, 2).empty());
   for (const OperatingPoint& point : best_points(chart, limits, 9, limit_of_valley, 2))
     CHECK(point.depth_m <= 1e-3);
   CHECK(best_points(chart, limits, 0, limit_of_valley, 1).empty());

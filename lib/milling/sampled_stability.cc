@@ -6,15 +6,14 @@
 #include <limits>
 #include <random>
 
+#include "base/normal.h"
 #include "base/parallel.h"
-#include "base/units.h"
 #include "milling/depth_scan.h"
 #include "milling/spectral.h"
 
 namespace stablecut {
 namespace {
 
-constexpr double kTolerance = 1e-4;   // of the samples' spectral radii
 constexpr double kLeastShare = 0.01;  // of its mean that a positive parameter keeps
 constexpr double kLow = 0.025, kHigh = 0.975;
 
@@ -47,20 +46,6 @@ ModalModel moved(ModalModel model, const Eigen::VectorXd& by) {
   return model;
 }
 
-// Standard normal numbers (Box and Muller), the same on every machine.
-class Normal {
- public:
-  explicit Normal(unsigned seed) : generator_(seed) {}
-  double operator()() {
-    const double radius = std::sqrt(-2 * std::log1p(-uniform())), angle = kTwoPi * uniform();
-    return radius * std::cos(angle);
-  }
-
- private:
-  double uniform() { return static_cast<double>(generator_() >> 11) * 0x1p-53; }
-  std::mt19937_64 generator_;
-};
-
 // Of sorted values, between the nearest two; none when that is infinite.
 std::optional<double> quantile(const std::vector<double>& sorted, double share) {
   const double place = share * static_cast<double>(sorted.size()) - 0.5;
@@ -76,7 +61,8 @@ std::optional<double> quantile(const std::vector<double>& sorted, double share) 
 std::vector<SampledCut> sampled_cuts(const ModalModel& model, const Cutter& cutter,
                                      const CoefficientDeviations& deviations, int count, unsigned seed) {
   const Eigen::MatrixXd root = root_of(model.covariance);
-  Normal normal(seed);
+  std::mt19937_64 generator(seed);
+  const auto normal = [&] { return std::sqrt(2.0) * unit_complex_normal(generator).real(); };
   std::vector<SampledCut> samples;
   while (static_cast<int>(samples.size()) < count) {
     Eigen::VectorXd z(root.cols());
@@ -110,7 +96,7 @@ SampledStability sampled_stability(const std::vector<SampledCut>& samples,
         std::vector<double> limits;
         for (const SampledCut& sample : samples) {
           const SpectralMap map(sample.structure, sample.cutter, revolutions_per_s[s], points[s]);
-          const auto boundaries = DepthScan(map, depths_m.back(), kTolerance).boundaries();
+          const auto boundaries = DepthScan(map, depths_m.back(), DepthScan::kForLimits).boundaries();
           limits.push_back(boundaries.empty() ? std::numeric_limits<double>::infinity()
                                               : boundaries[0].depth_m);
           for (std::size_t i = 0; with_grid && i < depths_m.size(); ++i) {
@@ -119,15 +105,14 @@ SampledStability sampled_stability(const std::vector<SampledCut>& samples,
                              [&](const StabilityBoundary& b) { return b.depth_m >= depths_m[i]; });
             // Stable up to the first boundary, and between a second and a third.
             if ((below - boundaries.begin()) % 2 == 0)
-              result.stable_share(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(s)) +=
-                  1 / static_cast<double>(samples.size());
+              result.stable_share(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(s)) += 1;
           }
         }
         std::sort(limits.begin(), limits.end());
         result.limit_95_m[s] = {quantile(limits, kLow), quantile(limits, kHigh)};
       },
       progress);
-  result.stable_share = result.stable_share.cwiseMin(1);
+  result.stable_share /= static_cast<double>(samples.size());
   return result;
 }
 
