@@ -89,9 +89,9 @@ class BestPose : public cli::Tool {
       throw usage("--height: missing: expected the height of the plane, mm");
     const StiffnessTask stiffness = stiffness_task();
     const PlaneDocument plane = plane_document();
-    const cli::Input robot_input = read_input(robot_path_, true);
+    const cli::Input robot_input = read_input(robot_path_, cli::InputForm::kJson);
     const Robot robot = robot_from_json(robot_input.document, robot_input.source);
-    const cli::Input input = read_main_input(true);
+    const cli::Input input = read_main_input(cli::InputForm::kJson);
     const JointStiffness joints =
         complete(joint_stiffness_from_json(input.document, input.source), input.source, robot);
     PoseDocument document;
@@ -270,7 +270,7 @@ class BestPose : public cli::Tool {
   }
 
   void score_poses(const Robot& robot, const JointAngles& compliance, PoseDocument& document) {
-    const cli::Input input = read_input(evaluate_path_, true);
+    const cli::Input input = read_input(evaluate_path_, cli::InputForm::kJson);
     for (const JointAngles& angles : pose_list_from_json(input.document, input.source)) {
       document.evaluated.push_back(
           report_pose(robot, angles, document.task, compliance, document.covariance));

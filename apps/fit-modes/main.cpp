@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <optional>
 
@@ -11,16 +12,24 @@
 #include "cli/tool.h"
 #include "document/error.h"
 #include "document/frf.h"
-#include "document/frf_csv.h"
+#include "document/frf_import.h"
+#include "document/frf_uff.h"
 #include "document/modal_table.h"
 #include "dynamics/synthesis.h"
 #include "modal/fit.h"
+#include "modal/tap_checks.h"
 #include "report.h"
 
 namespace stablecut {
 namespace {
 
 constexpr int kHighestOrder = 40;  // of the stabilization diagram, pole pairs
+
+std::string percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
+  return text;
+}
 
 class FitModes : public cli::Tool {
  public:
@@ -33,10 +42,48 @@ class FitModes : public cli::Tool {
 
  private:
   void setup(CLI::App& app) override {
-    cli::add_choice_option(app, "--from", from_, "json|csv", "Form of the input (default: by content)");
+    // Reading a measurement.
+    cli::add_choice_option(app, "--from", from_, "json|uff|csv|frf",
+                           "Form of the input (default: by content)");
     cli::add_choice_option(app, "--quantity", quantity_, "receptance|mobility|accelerance",
-                           "What a CSV holds (default: receptance)");
+                           "What a file holds that does not say so (default of columns: receptance)");
+    app.add_option_function<std::string>(
+           "--unit",
+           [this](const std::string& text) {
+             choice_.unit = frf_unit(text);
+             if (!choice_.unit)
+               throw CLI::ValidationError(
+                   "--unit", text + ": expected a unit of a response over a force, as um/N or g/lbf");
+           },
+           "Unit of the file's numbers, as um/N or (m/s^2)/N; wins over what the file says")
+        ->type_name("UNIT");
+    cli::add_repeated_option(
+        app, "--entry", "XY=FILE",
+        "One entry from each of several files: response, force, and the file; -xy turns a sign",
+        [this](const std::string& text) { take_entry(text); });
+    app.add_option_function<std::string>(
+           "--functions",
+           [this](const std::string& text) {
+             const auto list = parse_index_list(text);
+             if (!list) throw CLI::ValidationError("--functions", text + ": expected a list, as 1-4,7");
+             choice_.functions = *list;
+           },
+           "Only these functions of a universal file, as 1-4,7")
+        ->type_name("LIST");
+    cli::add_integer_option(app, "--node", choice_.node, std::numeric_limits<int>::min(),
+                            "Only what was measured at this node of a universal file");
+    cli::add_number_option(app, "--averages", choice_.averages, "Averages behind the file's coherences",
+                           "a number, at least 1", [](double value) { return value >= 1; });
     cli::add_band_option(app, "--band", band_, "Use only the lines in this band, Hz");
+    read_options_ = {app.get_option("--from"),     app.get_option("--quantity"),  app.get_option("--unit"),
+                     app.get_option("--entry"),    app.get_option("--functions"), app.get_option("--node"),
+                     app.get_option("--averages"), app.get_option("--band")};
+
+    // Fitting it.
+    app.add_option_function<std::string>(
+           "--window-decay", [this](const std::string& text) { take_window_decay(text); },
+           "Decay of the exponential window, 1/s (5), or its time constant (0.2s): taken off the damping")
+        ->type_name("DECAY");
     app.add_option_function<std::string>(
            "--modes",
            [this](const std::string& text) {
@@ -53,13 +100,16 @@ class FitModes : public cli::Tool {
                     "Also write the fitted model on the measured lines, an frf");
     add_file_option(app, "--stabilization", stabilization_path_,
                     "Also write the stabilization diagram: poles by order, and the modes chosen");
-    fit_options_ = {app.get_option("--from"),         app.get_option("--quantity"),
-                    app.get_option("--band"),         app.get_option("--modes"),
-                    app.get_option("--model"),        app.get_option("--fitted"),
-                    app.get_option("--stabilization")};
+    fit_options_ = {app.get_option("--window-decay"), app.get_option("--modes"), app.get_option("--model"),
+                    app.get_option("--fitted"), app.get_option("--stabilization")};
 
+    // Writing frequency responses.
+    app.add_flag("--convert", convert_, "Write the measurement as it was read, an frf, instead of a fit");
     cli::add_range_option(app, "--synthesize", synthesize_,
                           "Write the frf of a modal table on these lines, Hz");
+    cli::add_choice_option(
+        app, "--to", to_, "json|uff|uff-binary",
+        "Convert, synthesize: form of the output (default: json); uff is dataset 58, uff-binary 58b");
     const auto any = [](double) { return true; };
     noise_options_ = {
         cli::add_number_option(app, "--noise-db", noise_db_,
@@ -71,20 +121,57 @@ class FitModes : public cli::Tool {
                      "Synthesize: leave the noise's variance out of the document")};
   }
 
-  void run() override {
-    for (const CLI::Option* option : synthesize_ ? fit_options_ : noise_options_) {
-      if (option->count() == 0) continue;
-      throw cli::Failure(cli::ExitStatus::kUsage,
-                         option->get_name() + (synthesize_ ? ": expected without --synthesize"
-                                                           : ": expected with --synthesize"));
+  void take_entry(const std::string& text) {
+    const auto equals = text.find('=');
+    auto part = equals == std::string::npos ? std::nullopt : frf_part_named(text.substr(0, equals));
+    if (!part || equals + 1 == text.size())
+      throw CLI::ValidationError(
+          "--entry", text + ": expected DIRECTIONS=FILE, as xy=tap.csv (response x, force along y)");
+    parts_.push_back(*part);
+    part_paths_.push_back(text.substr(equals + 1));
+  }
+
+  void take_window_decay(const std::string& text) {
+    const bool is_time = text.ends_with('s');
+    const auto number = parse_number(std::string_view(text).substr(0, text.size() - (is_time ? 1 : 0)));
+    if (!number || !(*number > 0) || !std::isfinite(1 / *number))
+      throw CLI::ValidationError("--window-decay",
+                                 text + ": expected a decay in 1/s above 0, or a time constant as 0.2s");
+    window_decay_per_s_ = is_time ? 1 / *number : *number;
+  }
+
+  // Options that belong to another of the tool's works than the one that is asked for.
+  void refuse(const std::vector<CLI::Option*>& options, const std::string& expected) const {
+    for (const CLI::Option* option : options) {
+      if (option->count() > 0)
+        throw cli::Failure(cli::ExitStatus::kUsage, option->get_name() + ": expected " + expected);
     }
-    synthesize_ ? synthesize_table() : fit();
+  }
+
+  void run() override {
+    if (synthesize_) {
+      refuse(read_options_, "without --synthesize");
+      refuse(fit_options_, "without --synthesize");
+      if (convert_) throw cli::Failure(cli::ExitStatus::kUsage, "--convert: expected without --synthesize");
+      synthesize_table();
+      return;
+    }
+    refuse(noise_options_, "with --synthesize");
+    if (convert_) {
+      refuse(fit_options_, "without --convert");
+      write_frf(main_output(), read_measurement());
+      return;
+    }
+    if (!to_.empty())
+      throw cli::Failure(cli::ExitStatus::kUsage, "--to: expected with --convert or --synthesize");
+    fit();
   }
 
   void synthesize_table() {
     if (synthesize_->from < 0)
       throw cli::Failure(cli::ExitStatus::kUsage, "--synthesize: expected frequencies not below 0 Hz");
-    const cli::Input input = read_main_input(true);
+    const cli::Input input = read_main_input(cli::InputForm::kJson);
+    input_name_ = input.source.name;
     const ModalModel model = modal_table_from_json(input.document, input.source);
     const std::vector<double> lines = synthesize_->values();
     FrequencyResponse frf = synthesize(
@@ -95,18 +182,37 @@ class FitModes : public cli::Tool {
         for (auto& entry : frf.entries) entry.variance.resize(0);
       }
     }
-    write_document(main_output(), frf_to_json(frf));
+    write_frf(main_output(), frf);
+  }
+
+  void write_frf(const std::string& path, const FrequencyResponse& frf) {
+    if (!to_.starts_with("uff")) {
+      write_document(path, frf_to_json(frf));
+      return;
+    }
+    try {
+      write_text(path,
+                 frf_to_universal_file(frf, to_ == "uff" ? UniversalForm::kText : UniversalForm::kBinary));
+    } catch (const InvalidArgument& error) {
+      throw DataError(input_name_, "", "", error.what());
+    }
   }
 
   void fit() {
     const FrequencyResponse measured = read_receptance();
-    const ModalFit result = fit_measured(measured);
+    for (const std::string& text : tap_findings(measured, !form_is_json_)) warn(input_name_ + ": " + text);
+    const FrequencyResponse used = without_disturbed_lines(measured);
+    const ModalFit result = fit_measured(used);
     for (const std::string& text : result.warnings) warn(input_name_ + ": " + text);
+    say_reciprocity(result);
 
-    Json document = modal_table_to_json(result.model);
-    document["fit"].update(fit_report(result, measured));
+    const ModalModel table = table_of(result);
+    Json document = modal_table_to_json(table);
+    document["fit"].update(fit_report(result, used));
+    if (window_decay_per_s_ > 0) document["fit"]["window_decay_per_s"] = window_decay_per_s_;
     write_document(main_output(), std::move(document));
     if (!fitted_path_.empty()) {
+      // Over the measurement, the window in it.
       FrequencyResponse fitted = synthesize(result.model, measured.frequency_hz);
       std::erase_if(fitted.entries, [&](const auto& entry) {
         return measured.find(entry.response, entry.reference) == nullptr;
@@ -117,7 +223,44 @@ class FitModes : public cli::Tool {
       cli::ProgressBar bar("fit-modes: orders", !quiet());
       const auto orders =
           stabilization(result.data, kHighestOrder, threads(), [&](double share) { bar.show(share); });
-      write_document(stabilization_path_, stabilization_to_json(orders, result, measured));
+      write_document(stabilization_path_, stabilization_to_json(orders, result, used));
+    }
+  }
+
+  // A few lines that mains hum or a spur disturbs would become modes without width.
+  FrequencyResponse without_disturbed_lines(const FrequencyResponse& measured) const {
+    constexpr Eigen::Index kFew = 5;
+    constexpr double kFewShare = 0.02;
+    constexpr std::size_t kShown = 5;
+    const std::vector<Eigen::Index> lines = disturbed_lines(measured);
+    const auto most = std::max(
+        kFew, static_cast<Eigen::Index>(kFewShare * static_cast<double>(measured.frequency_hz.size())));
+    if (lines.empty() || static_cast<Eigen::Index>(lines.size()) > most) return measured;
+    std::string list;
+    for (std::size_t i = 0; i < std::min(lines.size(), kShown); ++i)
+      list += (i == 0 ? "" : ", ") + short_number(measured.frequency_hz[lines[i]]);
+    if (lines.size() > kShown) list += ", ...";
+    warn(input_name_ + ": single lines stand out of their neighbours (" + std::to_string(lines.size()) +
+         ": " + list + " Hz), as hum does: left out, since each would be taken for a mode");
+    return without_lines(measured, lines);
+  }
+
+  void say_reciprocity(const ModalFit& result) const {
+    constexpr double kClear = 0.1;
+    if (!result.reciprocity || result.reciprocity->index < std::max(kClear, 3 * result.reciprocity->noise))
+      return;
+    warn(input_name_ + ": cross entries differ from their mirror images by " +
+         percent(result.reciprocity->index) + ", noise alone would by " + percent(result.reciprocity->noise) +
+         ": not reciprocal, as a controlled robot is, or taps at other places than the sensor's; the modes "
+         "follow what was measured");
+  }
+
+  ModalModel table_of(const ModalFit& result) const {
+    if (window_decay_per_s_ == 0) return result.model;
+    try {
+      return without_window(result.model, window_decay_per_s_);
+    } catch (const NoAnswer& answer) {
+      throw NoAnswer(input_name_ + ": " + answer.what());
     }
   }
 
@@ -142,47 +285,67 @@ class FitModes : public cli::Tool {
     }
   }
 
-  // The measurement in the band, as a receptance.
-  FrequencyResponse read_receptance() {
-    const cli::Input input = read_main_input(from_ == "json");
-    input_name_ = input.source.name;
+  // What the input, or the files of --entry, hold in the band, in the quantity that was measured.
+  FrequencyResponse read_measurement() {
+    choice_.form = frf_form_from_name(from_);
+    if (!quantity_.empty()) choice_.quantity = quantity_from_name(quantity_);
+    const auto form = from_.empty()     ? cli::InputForm::kByContent
+                      : from_ == "json" ? cli::InputForm::kJson
+                                        : cli::InputForm::kText;
     FrequencyResponse frf;
-    if (from_ == "csv" || (from_.empty() && input.document.is_null())) {
-      if (!quantity_.empty()) frf.quantity = quantity_from_name(quantity_);
-      frf = frf_from_csv(input.source, frf.quantity);
+    std::vector<std::string> remarks;
+    if (parts_.empty()) {
+      const cli::Input input = read_main_input(form);
+      input_name_ = input.source.name;
+      frf = import_frf(input, choice_, remarks);
+      form_is_json_ = !input.document.is_null();
+      for (std::string& remark : remarks) remark = input_name_ + ": " + remark;
     } else {
-      frf = frf_from_json(input.document, input.source);
-      if (!quantity_.empty() && frf.quantity != quantity_from_name(quantity_)) {
-        throw cli::Failure(cli::ExitStatus::kUsage, "--quantity: " + quantity_ + ": expected " +
-                                                        quantity_name(frf.quantity) +
-                                                        ", as the document says");
-      }
+      if (main_input() != "-")
+        throw cli::Failure(cli::ExitStatus::kUsage, main_input() + ": expected no other input with --entry");
+      for (std::size_t i = 0; i < parts_.size(); ++i) parts_[i].input = read_input(part_paths_[i], form);
+      input_name_ = parts_[0].input.source.name;
+      frf = import_frf_parts(parts_, choice_, remarks);
     }
+    for (const std::string& remark : remarks) warn(remark);
+    if (!band_) return frf;
+    frf = within_band(frf, band_->from, band_->to);
+    if (frf.frequency_hz.size() == 0)
+      throw DataError(input_name_, "", "", "no lines in the band: expected some in --band");
+    return frf;
+  }
+
+  // The measurement as a receptance, without a line at 0 Hz, and what it shows about itself.
+  FrequencyResponse read_receptance() {
+    FrequencyResponse frf = read_measurement();
     for (std::size_t e = 0; e < frf.entries.size(); ++e) {
       if (frf.find(frf.entries[e].response, frf.entries[e].reference) != &frf.entries[e]) {
-        throw DataError(input.source.name, "/h/" + std::to_string(e),
+        throw DataError(input_name_, "/h/" + std::to_string(e),
                         frf.entries[e].response + frf.entries[e].reference,
                         "measured at another position too: expected each pair of directions once");
       }
     }
     // Nothing is learnt at 0 Hz, and inertance and mobility cannot be converted there.
-    const double least = std::numeric_limits<double>::min();
-    frf = within_band(frf, std::max(band_ ? band_->from : least, least),
-                      band_ ? band_->to : std::numeric_limits<double>::max());
-    if (frf.frequency_hz.size() == 0) {
-      throw DataError(
-          input.source.name, "", "",
-          "no lines in the band: expected some above 0 Hz" + std::string(band_ ? " in --band" : ""));
+    if (frf.frequency_hz[0] == 0) {
+      frf = within_band(frf, std::numeric_limits<double>::min(), std::numeric_limits<double>::max());
+      if (frf.frequency_hz.size() == 0)
+        throw DataError(input_name_, "", "", "no lines in the band: expected some above 0 Hz");
+      warn(input_name_ + ": the line at 0 Hz is left out: it tells nothing of a vibration");
     }
-    return to_receptance(std::move(frf));
+    frf = to_receptance(std::move(frf), window_decay_per_s_);
+    return frf;
   }
 
-  std::string from_, quantity_, model_, fitted_path_, stabilization_path_, input_name_;
+  std::string from_, quantity_, to_, model_, fitted_path_, stabilization_path_, input_name_;
+  FrfChoice choice_;
+  std::vector<FrfPart> parts_;
+  std::vector<std::string> part_paths_;
   std::optional<Range> band_, synthesize_;
   std::optional<int> modes_, seed_;
   std::optional<double> noise_db_, noise_floor_db_;
-  bool no_variance_ = false;
-  std::vector<CLI::Option*> fit_options_, noise_options_;
+  double window_decay_per_s_ = 0;
+  bool no_variance_ = false, convert_ = false, form_is_json_ = false;
+  std::vector<CLI::Option*> read_options_, fit_options_, noise_options_;
 };
 
 }  // namespace

@@ -90,7 +90,7 @@ class JointStiffnessTool : public cli::Tool {
     if (plan_ && (!from_.empty() || !loss_.empty())) {
       throw cli::Failure(cli::ExitStatus::kUsage, "--from, --loss: expected without --plan");
     }
-    const cli::Input robot_input = read_input(robot_path_, true);
+    const cli::Input robot_input = read_input(robot_path_, cli::InputForm::kJson);
     const Robot robot = robot_from_json(robot_input.document, robot_input.source);
     if (plan_)
       plan(robot);
@@ -99,7 +99,8 @@ class JointStiffnessTool : public cli::Tool {
   }
 
   void identify(const Robot& robot) {
-    const cli::Input input = read_main_input(from_ == "json");
+    const cli::Input input =
+        read_main_input(from_ == "json" ? cli::InputForm::kJson : cli::InputForm::kByContent);
     const bool csv = from_ == "csv" || (from_.empty() && input.document.is_null());
     const LoadSamplesDocument samples =
         csv ? load_samples_from_csv(input.source, robot, components_)
@@ -153,10 +154,10 @@ class JointStiffnessTool : public cli::Tool {
   void plan(const Robot& robot) {
     PlanDocument document;
     if (!expected_path_.empty()) {
-      const cli::Input expected = read_input(expected_path_, true);
+      const cli::Input expected = read_input(expected_path_, cli::InputForm::kJson);
       document.expected = joint_stiffness_from_json(expected.document, expected.source);
     }
-    const cli::Input input = read_main_input(true);
+    const cli::Input input = read_main_input(cli::InputForm::kJson);
     const std::vector<JointAngles> poses = pose_list_from_json(input.document, input.source);
     if (loads_.empty()) loads_.assign(kPlanLoads.begin(), kPlanLoads.end());
     for (std::size_t p = 0; p < poses.size(); ++p) {

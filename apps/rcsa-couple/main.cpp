@@ -18,6 +18,7 @@
 #include "document/assembly.h"
 #include "document/error.h"
 #include "document/frf.h"
+#include "document/frf_import.h"
 #include "document/tool_joint.h"
 
 namespace stablecut {
@@ -114,9 +115,10 @@ class RcsaCouple : public cli::Tool {
   AssemblyDocument read_assembly(const Input& input, const Eigen::VectorXd& frequency_hz) {
     assembly_name_ = input.source.name;
     const auto folder = std::filesystem::path(main_input() == "-" ? "" : main_input()).parent_path();
-    AssemblyDocument document = assembly_from_json(
-        input.document, input.source, frequency_hz,
-        [&](const std::string& path) { return read_input((folder / path).string(), false); });
+    AssemblyDocument document =
+        assembly_from_json(input.document, input.source, frequency_hz, [&](const std::string& path) {
+          return read_input((folder / path).string(), cli::InputForm::kByContent);
+        });
     for (const std::string& text : document.warnings) warn(text);
     return document;
   }
@@ -188,14 +190,14 @@ class RcsaCouple : public cli::Tool {
   }
 
   void couple() {
-    const Input input = read_main_input(true);
+    const Input input = read_main_input(cli::InputForm::kJson);
     AssemblyDocument document = read_assembly(input, assembly_frequencies(input.document, input.source));
     if (!positions_m_.empty() && document.assembly.tip_mass_kg > 0) {
       throw DataError(input.source.name, "/sensor_mass_g", "",
                       "with --positions: expected no sensor on the tip");
     }
     if (!joint_path_.empty()) {
-      const Input joint = read_input(joint_path_, true);
+      const Input joint = read_input(joint_path_, cli::InputForm::kJson);
       const ToolJoints joints = tool_joints_from_json(joint.document, joint.source);
       if (!joints.only.empty()) {
         warn(joint.source.name + ": identified in " + joints.only + " only: taken for " +
@@ -226,11 +228,13 @@ class RcsaCouple : public cli::Tool {
   }
 
   void identify() {
-    const Input measured_input = read_input(identify_path_, true);
-    const Input input = read_main_input(true);
+    const Input measured_input = read_input(identify_path_, cli::InputForm::kByContent);
+    std::vector<std::string> remarks;
+    const FrequencyResponse tap = import_frf(measured_input, {}, remarks);
+    for (const std::string& remark : remarks) warn(measured_input.source.name + ": " + remark);
+    const Input input = read_main_input(cli::InputForm::kJson);
     const Eigen::VectorXd wanted = assembly_frequencies(input.document, input.source);
-    const FrequencyResponse measured = to_receptance(within_band(
-        frf_from_json(measured_input.document, measured_input.source), wanted[0], wanted[wanted.size() - 1]));
+    const FrequencyResponse measured = to_receptance(within_band(tap, wanted[0], wanted[wanted.size() - 1]));
     if (measured.frequency_hz.size() < kLeastJointLines) {
       throw DataError(
           measured_input.source.name, "/frequency_hz",

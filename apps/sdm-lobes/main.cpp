@@ -110,7 +110,7 @@ class SdmLobes : public cli::Tool {
     const Json cut_json = cut_document();
     const CutDocument cut = read_cut(cut_json);
     check_cut(cut);
-    const cli::Input table = read_main_input(true);
+    const cli::Input table = read_main_input(cli::InputForm::kJson);
     const ModalModel whole_model = modal_table_from_json(table.document, table.source);
     const ModalModel model = selected_modes(whole_model, table.source);
     const TipStructure structure = structure_of(model, table.source);
@@ -134,7 +134,7 @@ class SdmLobes : public cli::Tool {
     lobes.depth_mm = depth.values();
     lobes.cut = cut_as_used(cut_json, speed, depth);
     if (!points_path_.empty()) {
-      const cli::Input points = read_input(points_path_, false);
+      const cli::Input points = read_input(points_path_, cli::InputForm::kByContent);
       for (const MeasuredCut& measured : measured_cuts(points.source, points.document)) {
         lobes.points.push_back({measured, 0});
       }
@@ -290,7 +290,7 @@ class SdmLobes : public cli::Tool {
             cli::ExitStatus::kUsage,
             "--cut: expected either a cut document or --teeth --kt --kr --milling --immersion");
       }
-      const cli::Input input = read_input(cut_path_, true);
+      const cli::Input input = read_input(cut_path_, cli::InputForm::kJson);
       cut_source_ = input.source;
       return input.document;
     }

@@ -124,34 +124,40 @@ CLI::Option* Tool::add_file_option(CLI::App& app, const std::string& name, std::
 }
 
 Input Tool::read_part(const std::string& path) {
-  Input input = read_input(path, true);
+  Input input = read_input(path, InputForm::kJson);
   inputs_.pop_back();
   return input;
 }
 
-Input Tool::read_input(const std::string& path, bool must_be_json) {
+Input Tool::read_input(const std::string& path, InputForm form) {
   if (path == "-") {
     if (standard_input_taken_)
       throw Failure(ExitStatus::kUsage, "-: expected standard input for one input only");
     standard_input_taken_ = true;
   }
   Input input{read_source(path), nullptr};
-  if (must_be_json || looks_like_json(input.source.text)) input.document = parse_json(input.source);
+  const bool is_json =
+      form == InputForm::kByContent ? looks_like_json(input.source.text) : form == InputForm::kJson;
+  if (is_json) input.document = parse_json(input.source);
   inputs_.push_back(provenance_input(input.source, input.document));
   return input;
 }
 
 void Tool::write_document(const std::string& path, Json document) {
+  if (!without_provenance_) {
+    document["provenance"] = provenance(name_, STABLECUT_VERSION, result_arguments(), inputs_);
+  }
+  write_text(path, json_text(document));
+}
+
+void Tool::write_text(const std::string& path, std::string text) {
   const std::string whole =
       path == "-" ? path : std::filesystem::weakly_canonical(std::filesystem::absolute(path)).string();
   if (std::find(output_paths_.begin(), output_paths_.end(), whole) != output_paths_.end()) {
     throw Failure(ExitStatus::kUsage, path + ": expected another output for each document");
   }
   output_paths_.push_back(whole);
-  if (!without_provenance_) {
-    document["provenance"] = provenance(name_, STABLECUT_VERSION, result_arguments(), inputs_);
-  }
-  outputs_.add(path, json_text(document));
+  outputs_.add(path, std::move(text));
 }
 
 void Tool::warn(const std::string& text) const {

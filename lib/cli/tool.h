@@ -18,6 +18,9 @@ namespace stablecut::cli {
 
 using stablecut::Input;
 
+/// What an input is read as; by content one that begins with { or [ is JSON.
+enum class InputForm { kByContent, kJson, kText };
+
 /// One executable. A tool declares its options in setup(), which opens nothing, and works in run(), which
 /// throws on failure; outputs are written after run() has returned.
 class Tool {
@@ -33,16 +36,17 @@ class Tool {
   virtual void setup(CLI::App& app) = 0;
   virtual void run() = 0;
 
-  /// The main input (INPUT, standard input by default) or another; remembered for the provenance. An input
-  /// that begins with { or [ is parsed as JSON, as is every input with `must_be_json`.
-  Input read_main_input(bool must_be_json) { return read_input(input_, must_be_json); }
-  Input read_input(const std::string& path, bool must_be_json);
+  /// The main input (INPUT, standard input by default) or another; remembered for the provenance.
+  Input read_main_input(InputForm form) { return read_input(input_, form); }
+  Input read_input(const std::string& path, InputForm form);
   const std::string& main_input() const { return input_; }
   /// A part of the tool's own result: not an input of the document.
   Input read_part(const std::string& path);
 
   /// Adds provenance and takes the document as an output; "-" is standard output.
   void write_document(const std::string& path, Json document);
+  /// Takes a text that is no document, without provenance, as an output.
+  void write_text(const std::string& path, std::string text);
   const std::string& main_output() const { return output_; }
 
   void warn(const std::string& text) const;

@@ -8,7 +8,7 @@
 #include "base/units.h"
 #include "document/error.h"
 #include "document/frf.h"
-#include "document/frf_csv.h"
+#include "document/frf_import.h"
 #include "document/modal_table.h"
 #include "document/node.h"
 #include "document/tool_joint.h"
@@ -114,15 +114,18 @@ Found document_at(const Node& node, const DocumentLoader& load) {
   return {{node.source(), node.json()}, node.pointer()};
 }
 
-// One item of `receptances`: a document, or a file of one (JSON or columns) with places for its entries.
-FrequencyResponse responses_of(const Node& node, const DocumentLoader& load) {
+// One item of `receptances`: a document, or a file of a measurement with places for its entries.
+FrequencyResponse responses_of(const Node& node, const DocumentLoader& load,
+                               std::vector<std::string>& warnings) {
   const Found found = document_at(node, load);
   FrequencyResponse frf;
   if (found.input.document.is_null()) {
-    Quantity quantity = Quantity::kReceptance;
+    FrfChoice choice;
     if (const auto name = node.find("quantity"))
-      quantity = quantity_from_name(name->word({"receptance", "mobility", "accelerance"}));
-    frf = frf_from_csv(found.input.source, quantity);
+      choice.quantity = quantity_from_name(name->word({"receptance", "mobility", "accelerance"}));
+    std::vector<std::string> remarks;
+    frf = import_frf(found.input, choice, remarks);
+    for (const std::string& remark : remarks) warnings.push_back(found.input.source.name + ": " + remark);
   } else {
     frf = frf_from_json(found.input.document, found.input.source, found.pointer);
   }
@@ -137,12 +140,13 @@ FrequencyResponse responses_of(const Node& node, const DocumentLoader& load) {
   return frf;
 }
 
-FrequencyResponse receptances_from(const Node& node, const DocumentLoader& load) {
-  if (!node.json().is_array()) return responses_of(node, load);
+FrequencyResponse receptances_from(const Node& node, const DocumentLoader& load,
+                                   std::vector<std::string>& warnings) {
+  if (!node.json().is_array()) return responses_of(node, load, warnings);
   const auto items = node.items(1);
-  FrequencyResponse all = responses_of(items[0], load);
+  FrequencyResponse all = responses_of(items[0], load, warnings);
   for (std::size_t i = 1; i < items.size(); ++i) {
-    FrequencyResponse more = responses_of(items[i], load);
+    FrequencyResponse more = responses_of(items[i], load, warnings);
     if (more.quantity != all.quantity) items[i].fail("expected the quantity of the first of the list");
     if (!same_values(more.frequency_hz, all.frequency_hz))
       items[i].fail("expected the lines of the first of the list");
@@ -279,7 +283,7 @@ class AssemblyReader {
   }
 
   MeasuredHolder of_taps(const Node& node, const Node& content) {
-    HolderMeasurement measurement{receptances_from(content, load_), 0, {}};
+    HolderMeasurement measurement{receptances_from(content, load_, document_.warnings), 0, {}};
     if (const auto mass = node.find("sensor_mass_g"))
       measurement.sensor_mass_kg = 1e-3 * mass->number(kNotNegative);
     if (const auto artefact = node.find("artefact")) {

@@ -22,7 +22,8 @@ std::string line_place(long line);
 /// A number for a message: six digits.
 std::string short_number(double value);
 
-/// A value for a message: on one line, control characters replaced, shortened when long.
+/// A value for a message: on one line, control characters and bytes that are not UTF-8
+/// replaced, shortened when long.
 std::string shown(std::string value);
 
 }  // namespace stablecut

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <string>
 
@@ -62,11 +61,9 @@ std::pair<std::string, std::string> name_and_unit(std::string header, const std:
   for (const char c : header) {
     if (std::isalnum(static_cast<unsigned char>(c))) name += c;
   }
-  // Micro signs (of UTF-8, Greek, Latin-1) are u; other signs, such as the dot of N.m, are dropped.
-  for (const char* micro : {"\xC2\xB5", "\xCE\xBC", "\xB5"}) {
-    if (const auto at = unit.find(micro); at != std::string::npos) unit.replace(at, std::strlen(micro), "u");
-  }
+  // Other signs than the micro sign, such as the dot of N.m, are dropped.
   if (unit.find("\xC2\xB0") != std::string::npos) unit = "deg";
+  unit = plain_signs(unit);
   std::erase_if(unit, [](unsigned char c) { return !std::isalnum(c) || c > 127; });
   return {name, unit};
 }

@@ -1,7 +1,9 @@
 #include "document/table_text.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
+#include <utility>
 
 #include "base/range.h"
 #include "document/error.h"
@@ -50,6 +52,26 @@ std::vector<std::string> fields_of(std::string_view line, char separator) {
   }
 }
 
+bool is_comment(std::string_view line) {
+  return line.front() == '#' || line.front() == '%' || line.front() == '!' || line.starts_with("//");
+}
+
+// The separator of a line: the first of tab, semicolon, bar, comma that it holds, else blanks. Commas inside
+// numbers that blanks separate are decimal commas.
+char separator_of(std::string_view line) {
+  for (const char candidate : {'\t', ';', '|'}) {
+    if (line.find(candidate) != std::string_view::npos) return candidate;
+  }
+  if (line.find(',') == std::string_view::npos) return ' ';
+  const std::vector<std::string> fields = fields_of(line, ' ');
+  const bool decimal_commas =
+      fields.size() > 1 && std::all_of(fields.begin(), fields.end(), [](std::string field) {
+        std::replace(field.begin(), field.end(), ',', '.');
+        return parse_number(field).has_value();
+      });
+  return decimal_commas ? ' ' : ',';
+}
+
 // Minus signs that word processors put for hyphens.
 std::string plain_minus(std::string field) {
   for (auto at = field.find("\xE2\x88\x92"); at != std::string::npos; at = field.find("\xE2\x88\x92", at)) {
@@ -67,27 +89,28 @@ std::vector<TableRow> table_rows(const Source& source) {
     throw DataError(source.name, "", "UTF-16 text", "expected UTF-8");
   }
   const char line_end = rest.find('\n') == std::string_view::npos ? '\r' : '\n';  // old Macintosh files
-  std::vector<TableRow> rows;
-  char separator = 0;
+  std::vector<std::pair<long, std::string_view>> lines;
   for (long number = 1; !rest.empty(); ++number) {
     const auto end = rest.find(line_end);
     const std::string_view line = trimmed(rest.substr(0, end));
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-    if (line.empty() || line.front() == '#' || line.front() == '%') continue;
-    if (rows.empty() && line.size() == 5 && line.starts_with("sep=")) {  // a spreadsheet's own note
-      separator = line.back();
-      continue;
-    }
-    if (separator == 0) {
-      separator = ' ';
-      for (const char candidate : {',', ';', '\t'}) {
-        if (line.find(candidate) != std::string_view::npos) separator = candidate;
-      }
-    }
+    if (!line.empty() && !is_comment(line)) lines.emplace_back(number, line);
+  }
+  if (lines.empty()) return {};
+  // The last line is the least likely to be a header or a remark.
+  char separator = separator_of(lines.back().second);
+  if (lines.front().second.size() == 5 &&
+      lines.front().second.starts_with("sep=")) {  // a spreadsheet's own note
+    separator = lines.front().second.back();
+    lines.erase(lines.begin());
+  }
+  std::vector<TableRow> rows;
+  for (const auto& [number, line] : lines) {
     rows.push_back({number, fields_of(line, separator)});
-    for (std::string& field : rows.back().fields) field = plain_minus(std::move(field));
-    // A comma left inside a field is a decimal comma where the whole field is then a number.
     for (std::string& field : rows.back().fields) {
+      field = plain_minus(std::move(field));
+      // A comma left inside a field is a decimal comma where the whole field is then a number.
+      if (field.find(',') == std::string::npos) continue;
       std::string pointed = field;
       std::replace(pointed.begin(), pointed.end(), ',', '.');
       if (parse_number(pointed)) field = pointed;
@@ -110,6 +133,29 @@ double table_number(const Source& source, const TableRow& row, std::size_t colum
   const auto value = parse_number(row.fields[column]);
   if (!value) throw DataError(source.name, line_place(row.line), '"' + row.fields[column] + '"', wanted);
   return *value;
+}
+
+std::string plain_signs(std::string_view text) {
+  static constexpr std::array<std::array<std::string_view, 2>, 7> kSigns = {{{"\xC2\xB5", "u"},
+                                                                             {"\xCE\xBC", "u"},
+                                                                             {"\xB5", "u"},
+                                                                             {"\xC2\xB2", "^2"},
+                                                                             {"\xB2", "^2"},
+                                                                             {"\xC2\xB7", "*"},
+                                                                             {"\xB7", "*"}}};
+  std::string result;
+  while (!text.empty()) {
+    const auto sign = std::find_if(kSigns.begin(), kSigns.end(),
+                                   [&](const auto& candidate) { return text.starts_with(candidate[0]); });
+    if (sign == kSigns.end()) {
+      result += text.front();
+      text.remove_prefix(1);
+    } else {
+      result += (*sign)[1];
+      text.remove_prefix((*sign)[0].size());
+    }
+  }
+  return result;
 }
 
 }  // namespace stablecut

@@ -2,22 +2,23 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "document/json_text.h"
 
 namespace stablecut {
 
-/// One line of fields. Blank lines and lines that begin with # or % are not rows.
+/// One line of fields. Blank lines and lines that begin with #, %, ! or // are not rows.
 struct TableRow {
   long line = 0;  ///< 1-based
   std::vector<std::string> fields;
 };
 
-/// The rows of the text. The separator is the first of tab, semicolon, comma that the first row holds, else
-/// blanks, or what a first line `sep=;` says. CRLF, a byte-order mark and quotes around a field are taken
-/// off; a separator inside quotes is none. A comma inside a field is read as a point where the field is then
-/// a number.
+/// The rows of the text. The separator is the first of tab, semicolon, bar, comma that the last line holds,
+/// else blanks, or what a first line `sep=;` says. CRLF, a byte-order mark and quotes around a field are
+/// taken off; a separator inside quotes is none. A comma inside a field is read as a point where the field is
+/// then a number.
 std::vector<TableRow> table_rows(const Source& source);
 
 /// True when no field of the row is a number: a header.
@@ -25,5 +26,8 @@ bool is_header(const TableRow& row);
 
 /// Field `column` as a finite number. Throws DataError naming line, column and what was expected.
 double table_number(const Source& source, const TableRow& row, std::size_t column, const char* expected);
+
+/// Signs of UTF-8 and Latin-1 in plain letters: a micro sign as u, a raised 2 as ^2, a middle dot as *.
+std::string plain_signs(std::string_view text);
 
 }  // namespace stablecut

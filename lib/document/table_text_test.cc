@@ -3,7 +3,6 @@
 #include <catch2/catch.hpp>
 
 #include "document/error.h"
-#include "document/frf_csv.h"
 
 using namespace stablecut;
 
@@ -26,33 +25,4 @@ TEST_CASE("separators, comments, CRLF, byte-order mark, quotes, decimal commas")
                                                  "1\0,",
                                                  5)}),
                     Catch::Contains("UTF-8"));
-}
-
-TEST_CASE("FRF columns by count and by name") {
-  const auto plain = frf_from_csv({"f", "1\t2\t3\n2\t4\t5\n"}, Quantity::kMobility);
-  REQUIRE(plain.entries.size() == 1);
-  CHECK(plain.quantity == Quantity::kMobility);
-  CHECK(plain.entries[0].h[1] == std::complex<double>(4, 5));
-  const auto named =
-      frf_from_csv({"f", "f_hz,Hxy (imag),Hxy (real),yy_re,yy_im\n1,2,3,4,5\n"}, Quantity::kReceptance);
-  REQUIRE(named.entries.size() == 2);
-  CHECK(named.find("x", "y")->h[0] == std::complex<double>(3, 2));
-  CHECK(named.find("y", "y")->h[0] == std::complex<double>(4, 5));
-}
-
-TEST_CASE("a bad line is named") {
-  const auto complaint = [](const char* text) -> std::string {
-    try {
-      frf_from_csv({"f", text}, Quantity::kReceptance);
-    } catch (const DataError& error) {
-      return error.what();
-    }
-    return "";
-  };
-  CHECK(complaint("") == "f: empty input: expected columns of numbers");
-  CHECK(complaint("1,2,3\n2,x,3\n") == "f: line 2: \"x\": expected a real part in column 2");
-  CHECK(complaint("1,2,3\n2,nan,3\n") == "f: line 2: \"nan\": expected a real part in column 2");
-  CHECK(complaint("1,2,3\n1,2,3\n").find("f: line 2: 1: expected increasing") == 0);
-  CHECK(complaint("1,2,3\n2,2\n") == "f: line 2: 2 columns: expected 3 as in the lines before");
-  CHECK(complaint("1,2\n").find("f: line 1: 2 columns: expected 3 columns") == 0);
 }

@@ -28,7 +28,7 @@ const FrequencyResponseEntry* FrequencyResponse::find(std::string_view response,
   return nullptr;
 }
 
-FrequencyResponse to_receptance(FrequencyResponse frf) {
+FrequencyResponse to_receptance(FrequencyResponse frf, double decay_per_s) {
   const int order = static_cast<int>(frf.quantity);
   if (order == 0) return frf;
   if (frf.frequency_hz.size() > 0 && frf.frequency_hz.minCoeff() <= 0) {
@@ -36,8 +36,8 @@ FrequencyResponse to_receptance(FrequencyResponse frf) {
   }
   for (Eigen::Index line = 0; line < frf.frequency_hz.size(); ++line) {
     const double omega = rad_per_s_from_hz(frf.frequency_hz[line]);
-    const std::complex<double> divisor =
-        order == 1 ? std::complex<double>(0, omega) : std::complex<double>(-omega * omega, 0);
+    const std::complex<double> s(decay_per_s, omega);
+    const std::complex<double> divisor = order == 1 ? s : s * s;
     for (auto& entry : frf.entries) {
       entry.h[line] /= divisor;
       if (entry.variance.size() > 0) entry.variance[line] /= std::norm(divisor);
@@ -60,6 +60,26 @@ FrequencyResponse within_band(const FrequencyResponse& frf, double lo_hz, double
     entry.h = entry.h.segment(first, count).eval();
     if (entry.variance.size() > 0) entry.variance = entry.variance.segment(first, count).eval();
     if (entry.coherence.size() > 0) entry.coherence = entry.coherence.segment(first, count).eval();
+  }
+  return part;
+}
+
+FrequencyResponse without_lines(const FrequencyResponse& frf, const std::vector<Eigen::Index>& lines) {
+  std::vector<Eigen::Index> kept;
+  auto next = lines.begin();
+  for (Eigen::Index i = 0; i < frf.frequency_hz.size(); ++i) {
+    if (next != lines.end() && *next == i) {
+      ++next;
+    } else {
+      kept.push_back(i);
+    }
+  }
+  FrequencyResponse part = frf;
+  part.frequency_hz = frf.frequency_hz(kept).eval();
+  for (auto& entry : part.entries) {
+    entry.h = entry.h(kept).eval();
+    if (entry.variance.size() > 0) entry.variance = entry.variance(kept).eval();
+    if (entry.coherence.size() > 0) entry.coherence = entry.coherence(kept).eval();
   }
   return part;
 }
@@ -111,11 +131,11 @@ FrequencyResponse on_lines(const FrequencyResponse& frf, const Eigen::VectorXd& 
 }
 
 Eigen::VectorXd known_variance(const FrequencyResponseEntry& entry) {
-  if (entry.variance.size() > 0 || entry.coherence.size() == 0) return entry.variance;
+  if (entry.variance.size() > 0 || entry.coherence.size() == 0 || !entry.averages) return entry.variance;
   // Var H1 = (1 - coherence) / (2 averages coherence) |H|^2 for each part; the coherence, an estimate from
   // the same averages, takes one of them.
   const Eigen::ArrayXd coherence = entry.coherence.array().max(1e-6);
-  const double averages = std::max(entry.averages.value_or(1) - 1, 1.0);
+  const double averages = std::max(*entry.averages - 1, 1.0);
   return (1 - coherence) / (coherence * averages) * entry.h.array().abs2();
 }
 

@@ -19,7 +19,7 @@ struct FrequencyResponseEntry {
   Eigen::VectorXcd h;              ///< [lines]
   Eigen::VectorXd variance;        ///< [lines] E|error|^2 of the complex value, both parts; empty: unknown
   Eigen::VectorXd coherence;       ///< [lines] 0..1; empty: unknown
-  std::optional<double> averages;  ///< number of averages behind the coherence
+  std::optional<double> averages;  ///< number behind the coherence, where known
   std::optional<double> response_position_m;   ///< distance from the tip
   std::optional<double> reference_position_m;  ///< distance from the tip
 
@@ -37,12 +37,16 @@ struct FrequencyResponse {
   const FrequencyResponseEntry* find(std::string_view response, std::string_view reference) const;
 };
 
-/// The same measurement as displacement over force: H / (i omega)^k. Throws InvalidArgument when a line at
-/// 0 Hz would have to be divided by zero.
-FrequencyResponse to_receptance(FrequencyResponse frf);
+/// The same measurement as displacement over force: H / s^k, s = i omega. Where the signals were measured
+/// through an exponential window exp(-decay t), decay_per_s, their transforms are those at s = i omega +
+/// decay. Throws InvalidArgument when a line at 0 Hz would have to be divided by zero.
+FrequencyResponse to_receptance(FrequencyResponse frf, double decay_per_s = 0);
 
 /// The lines with lo_hz <= frequency <= hi_hz. May be empty.
 FrequencyResponse within_band(const FrequencyResponse& frf, double lo_hz, double hi_hz);
+
+/// All lines but these (increasing indices).
+FrequencyResponse without_lines(const FrequencyResponse& frf, const std::vector<Eigen::Index>& lines);
 
 /// The same on other lines (Hz, increasing): where a line was measured its values, between lines a cubic
 /// through the four nearest. Variances likewise but linear; coherences are left out. Throws InvalidArgument
@@ -53,7 +57,7 @@ FrequencyResponse on_lines(const FrequencyResponse& frf, const Eigen::VectorXd& 
 bool same_values(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
 /// Variance of an entry's complex values [lines], in its quantity's unit squared: given, or by its coherence
-/// (Bendat and Piersol); empty when neither is known.
+/// and averages (Bendat and Piersol); empty when neither is known.
 Eigen::VectorXd known_variance(const FrequencyResponseEntry& entry);
 
 }  // namespace stablecut

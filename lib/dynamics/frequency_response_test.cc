@@ -90,3 +90,33 @@ TEST_CASE("variance: given, by coherence, or unknown") {
   entry.variance = Eigen::Vector2d(7, 8);
   CHECK(known_variance(entry) == Eigen::Vector2d(7, 8));
 }
+
+TEST_CASE("without some lines") {
+  FrequencyResponse frf;
+  frf.frequency_hz = Eigen::VectorXd::LinSpaced(5, 1, 5);
+  FrequencyResponseEntry entry;
+  entry.h = frf.frequency_hz.cast<std::complex<double>>();
+  entry.variance = entry.coherence = frf.frequency_hz;
+  frf.entries.push_back(entry);
+  const FrequencyResponse part = without_lines(frf, {0, 3});
+  CHECK(part.frequency_hz == Eigen::Vector3d(2, 3, 5));
+  CHECK(part.entries[0].h.real() == part.frequency_hz);
+  CHECK(part.entries[0].variance == part.frequency_hz);
+  CHECK(part.entries[0].coherence == part.frequency_hz);
+}
+
+TEST_CASE("through an exponential window, accelerance is s^2 times receptance at s = i omega + decay") {
+  FrequencyResponse frf;
+  frf.quantity = Quantity::kAccelerance;
+  frf.frequency_hz = Eigen::Vector2d(10, 20);
+  FrequencyResponseEntry entry;
+  entry.h.resize(2);
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    const std::complex<double> s(4, kTwoPi * frf.frequency_hz[i]);
+    entry.h[i] = s * s * std::complex<double>(2, 1);
+  }
+  frf.entries.push_back(entry);
+  const FrequencyResponse receptance = to_receptance(frf, 4);
+  for (const auto& value : receptance.entries[0].h)
+    CHECK(std::abs(value - std::complex<double>(2, 1)) < 1e-14);
+}

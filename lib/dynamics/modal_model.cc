@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "base/error.h"
 #include "base/units.h"
 
 namespace stablecut {
@@ -37,6 +39,32 @@ ModalModel chosen_modes(const ModalModel& model, const std::vector<std::size_t>&
 void set_pole(Mode& mode, std::complex<double> lambda) {
   mode.frequency_hz = hz_from_rad_per_s(std::abs(lambda));
   mode.damping_ratio = -lambda.real() / std::abs(lambda);
+}
+
+ModalModel without_window(ModalModel model, double decay_per_s) {
+  const Eigen::Index own = model.parameters_per_mode();
+  for (std::size_t k = 0; k < model.modes.size(); ++k) {
+    Mode& mode = model.modes[k];
+    const double omega = rad_per_s_from_hz(mode.frequency_hz), zeta = mode.damping_ratio;
+    if (zeta * omega <= decay_per_s) {
+      if (mode.out_of_band) continue;
+      throw NoAnswer("the mode at " + std::to_string(mode.frequency_hz) + " Hz decays by " +
+                     std::to_string(zeta * omega) + " 1/s, less than the window alone");
+    }
+    set_pole(mode, mode.pole() + decay_per_s);
+    if (model.covariance.size() == 0) continue;
+    // omega'^2 = omega^2 - 2 decay zeta omega + decay^2, zeta' omega' = zeta omega - decay.
+    const double moved = rad_per_s_from_hz(mode.frequency_hz);
+    Eigen::Matrix2d slope;
+    slope(0, 0) = (omega - decay_per_s * zeta) / moved;
+    slope(0, 1) = -decay_per_s * omega / moved / kTwoPi;
+    slope(1, 0) = kTwoPi * (zeta - mode.damping_ratio * slope(0, 0)) / moved;
+    slope(1, 1) = (omega - mode.damping_ratio * slope(0, 1) * kTwoPi) / moved;
+    const Eigen::Index at = static_cast<Eigen::Index>(k) * own;
+    model.covariance.middleRows(at, 2) = (slope * model.covariance.middleRows(at, 2)).eval();
+    model.covariance.middleCols(at, 2) = (model.covariance.middleCols(at, 2) * slope.transpose()).eval();
+  }
+  return model;
 }
 
 namespace {

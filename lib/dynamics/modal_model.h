@@ -44,6 +44,11 @@ ModalModel chosen_modes(const ModalModel& model, const std::vector<std::size_t>&
 /// Frequency (Hz) and damping ratio of a pole with positive imaginary part.
 void set_pole(Mode& mode, std::complex<double> lambda);
 
+/// The modes without the damping that an exponential window exp(-decay t), decay_per_s, gave them: poles are
+/// moved by decay, the covariance with them. Modes outside the band, which stand for other things, keep
+/// theirs where they would lose all damping. Throws NoAnswer where a mode in the band would.
+ModalModel without_window(ModalModel model, double decay_per_s);
+
 /// The same mode in the contract's scale: |psi_r| = |psi_l|, equal phases at psi_r's largest component (the
 /// first of equals), real part there not negative; psi_r = psi_l for a symmetric mode. Where psi_l is zero at
 /// that component, psi_r is made real there. A mode without residue is returned as it is.

@@ -86,3 +86,52 @@ TEST_CASE("chosen modes take their part of the covariance") {
   CHECK(chosen.covariance.diagonal()[11] == 6);
   CHECK(chosen.deviation(1)[0] == 1);
 }
+
+TEST_CASE("without an exponential window, poles are what they were, and so is their covariance") {
+  ModalModel model;
+  model.dofs = {"x"};
+  for (const auto& [hz, zeta] : {std::pair(80.0, 0.03), std::pair(200.0, 0.02)}) {
+    Mode mode;
+    mode.frequency_hz = hz;
+    mode.damping_ratio = zeta;
+    mode.psi_r = mode.psi_l = Eigen::VectorXcd::Constant(1, std::complex<double>(0.1, 0.2));
+    model.modes.push_back(mode);
+  }
+  Eigen::MatrixXd root = Eigen::MatrixXd::Identity(12, 12);
+  for (Eigen::Index i = 0; i < 12; ++i)
+    for (Eigen::Index j = 0; j < i; ++j) root(i, j) = 0.3 / static_cast<double>(i + j);
+  model.covariance = root * root.transpose();
+  const double decay = 7;
+  ModalModel windowed = model;
+  for (Mode& mode : windowed.modes) set_pole(mode, mode.pole() - decay);
+  const ModalModel back = without_window(windowed, decay);
+  for (std::size_t k = 0; k < 2; ++k) {
+    CHECK(back.modes[k].frequency_hz == Approx(model.modes[k].frequency_hz).epsilon(1e-14));
+    CHECK(back.modes[k].damping_ratio == Approx(model.modes[k].damping_ratio).epsilon(1e-13));
+    CHECK(back.modes[k].psi_r == model.modes[k].psi_r);
+  }
+  // The covariance goes along the derivatives, by central differences here.
+  Eigen::MatrixXd slope = Eigen::MatrixXd::Identity(12, 12);
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    for (Eigen::Index p = 0; p < 2; ++p) {
+      const auto moved = [&](double step) {
+        ModalModel other = windowed;
+        other.covariance.resize(0, 0);
+        Mode& mode = other.modes[static_cast<std::size_t>(k)];
+        (p == 0 ? mode.frequency_hz : mode.damping_ratio) += step;
+        const Mode result = without_window(other, decay).modes[static_cast<std::size_t>(k)];
+        return Eigen::Vector2d(result.frequency_hz, result.damping_ratio);
+      };
+      const double step = p == 0 ? 1e-3 : 1e-6;
+      slope.block<2, 1>(6 * k, 6 * k + p) = (moved(step) - moved(-step)) / (2 * step);
+    }
+  }
+  windowed.covariance = model.covariance;
+  const Eigen::MatrixXd expected = slope * model.covariance * slope.transpose();
+  CHECK((without_window(windowed, decay).covariance - expected).norm() < 1e-7 * expected.norm());
+
+  // A window that explains more than all damping.
+  CHECK_THROWS_WITH(without_window(model, 20), Catch::Contains("less than the window alone"));
+  model.modes[0].out_of_band = true;
+  CHECK(without_window(model, 20).modes[0].damping_ratio == 0.03);
+}

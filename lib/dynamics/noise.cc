@@ -36,6 +36,24 @@ Eigen::VectorXd windowed_mean(const Eigen::VectorXd& square) {
   return mean;
 }
 
+// Weights of the fourth divided differences on the lines, the sum of their squares 1: of equal lines 1, -4,
+// 6, -4, 1 over the root of 70. [5 x lines - 4]
+Eigen::Matrix<double, 5, Eigen::Dynamic> fourth_differences(const Eigen::VectorXd& lines) {
+  Eigen::Matrix<double, 5, Eigen::Dynamic> weights(5, lines.size() - 4);
+  for (Eigen::Index i = 0; i < weights.cols(); ++i) {
+    for (Eigen::Index a = 0; a < 5; ++a) {
+      double product = 1;
+      for (Eigen::Index b = 0; b < 5; ++b) {
+        // In units of the whole stretch, so that nothing over- or underflows.
+        if (b != a) product *= (lines[i + a] - lines[i + b]) / (lines[i + 4] - lines[i]);
+      }
+      weights(a, i) = 1 / product;
+    }
+    weights.col(i).normalize();
+  }
+  return weights;
+}
+
 // Log-likelihood of squared complex Gaussians.
 double likelihood(const Eigen::VectorXd& square, const Eigen::VectorXd& variance) {
   const auto positive = variance.array().max(1e-300);
@@ -88,24 +106,20 @@ NoiseShapes floor_shapes(const Eigen::VectorXd& omega) {
   return {Eigen::VectorXd::Ones(omega.size()), omega.cwiseInverse(), omega.cwiseAbs2().cwiseInverse()};
 }
 
-Eigen::VectorXd estimated_variance(const Eigen::VectorXcd& values, const Eigen::VectorXd& size,
-                                   const NoiseShapes& floors) {
-  const Eigen::Index lines = values.size();
-  if (lines < 6) return Eigen::VectorXd::Zero(lines);
-  // Fourth differences have the weights 1, -4, 6, -4, 1; the sum of their squares is 70.
-  const Eigen::Index count = lines - 4;
-  const Eigen::VectorXd square =
-      (values.head(count) - 4.0 * values.segment(1, count) + 6.0 * values.segment(2, count) -
-       4.0 * values.segment(3, count) + values.tail(count))
-          .cwiseAbs2() /
-      70;
+Eigen::VectorXd estimated_variance(const Eigen::VectorXd& lines, const Eigen::VectorXcd& values,
+                                   const Eigen::VectorXd& size, const NoiseShapes& floors) {
+  if (values.size() < 6) return Eigen::VectorXd::Zero(values.size());
+  const Eigen::Index count = values.size() - 4;
+  const Eigen::Matrix<double, 5, Eigen::Dynamic> weights = fourth_differences(lines);
+  Eigen::VectorXd square(count);
+  for (Eigen::Index i = 0; i < count; ++i)
+    square[i] = std::norm((weights.col(i).transpose() * values.segment<5>(i)).value());
   Eigen::VectorXd best;
   double most = 0;
   const auto try_shape = [&](const Eigen::VectorXd& shape) {
     const Eigen::VectorXd v = shape.cwiseAbs2().array().max(1e-300);
-    const Eigen::VectorXd expected = (v.head(count) + 16 * v.segment(1, count) + 36 * v.segment(2, count) +
-                                      16 * v.segment(3, count) + v.tail(count)) /
-                                     70;
+    Eigen::VectorXd expected(count);
+    for (Eigen::Index i = 0; i < count; ++i) expected[i] = weights.col(i).cwiseAbs2().dot(v.segment<5>(i));
     const Eigen::VectorXd level = windowed_mean(square.cwiseQuotient(expected));
     const double likely = likelihood(square, level.segment(2, count).cwiseProduct(expected));
     if (best.size() > 0 && !(likely > most)) return;

@@ -13,13 +13,14 @@ using NoiseShapes = std::vector<Eigen::VectorXd>;
 /// that as a receptance it falls like 1, 1 / omega or 1 / omega^2. `omega` [lines], above 0.
 NoiseShapes floor_shapes(const Eigen::VectorXd& omega);
 
-/// Estimated variance of the complex values on each line: fourth differences (blind to a cubic) squared,
+/// Estimated variance of the complex values on each line: fourth differences (blind to a cubic, whatever the
+/// spacing of the lines, which stand at `lines`: increasing, in any unit) squared,
 /// their median over a window of lines, so that a narrow peak does not count as noise. The noise may follow
 /// a shape more closely than a window can: medians are taken of the noise over each of the floor shapes and
-/// over the signal's `size` (its modulus on each line), and the likeliest is kept. Equal or nearly equal
-/// spacing is assumed. [lines]; zero for a curve without noise.
-Eigen::VectorXd estimated_variance(const Eigen::VectorXcd& values, const Eigen::VectorXd& size,
-                                   const NoiseShapes& floors);
+/// over the signal's `size` (its modulus on each line), and the likeliest is kept. [lines]; zero for a curve
+/// without noise.
+Eigen::VectorXd estimated_variance(const Eigen::VectorXd& lines, const Eigen::VectorXcd& values,
+                                   const Eigen::VectorXd& size, const NoiseShapes& floors);
 
 /// Variance on each line of a white residual, from all of it.
 struct ResidualNoise {

@@ -14,9 +14,11 @@ Eigen::VectorXcd white(Eigen::Index lines, double sigma) {
       lines, [&] { return std::complex<double>(normal(generator), normal(generator)); });
 }
 
-NoiseShapes floors_of(Eigen::Index lines) {
-  return floor_shapes(Eigen::VectorXd::LinSpaced(lines, 2, static_cast<double>(lines + 1)));
+Eigen::VectorXd lines_of(Eigen::Index lines) {
+  return Eigen::VectorXd::LinSpaced(lines, 2, static_cast<double>(lines + 1));
 }
+
+NoiseShapes floors_of(Eigen::Index lines) { return floor_shapes(lines_of(lines)); }
 
 }  // namespace
 
@@ -27,13 +29,28 @@ TEST_CASE("the variance of noise on a smooth curve is found within its window's 
     values[i] *= 1 + 4 * x;
     values[i] += std::complex<double>(std::cos(9 * x), 1 / (0.05 + x));
   }
-  const Eigen::VectorXd variance = estimated_variance(values, values.cwiseAbs(), floors_of(4000));
+  const Eigen::VectorXd variance =
+      estimated_variance(lines_of(4000), values, values.cwiseAbs(), floors_of(4000));
   for (const Eigen::Index i : {100, 1000, 3000, 3990}) {
     const double expected = std::pow(0.02 * (1 + 4 * static_cast<double>(i) / 4000), 2);
     CHECK(variance[i] > 0.4 * expected);
     CHECK(variance[i] < 2.5 * expected);
   }
   CHECK(variance.size() == 4000);
+}
+
+TEST_CASE("the spacing of the lines does not count as noise") {
+  // Three densities of lines, and single gaps.
+  Eigen::VectorXd lines(3000);
+  lines[0] = 10;
+  for (Eigen::Index i = 1; i < 3000; ++i)
+    lines[i] = lines[i - 1] + (i < 1000 ? 0.1 : i < 2000 ? 1.0 : 0.3) * (i % 97 == 0 ? 4 : 1);
+  Eigen::VectorXcd values = white(3000, 1e-6);
+  for (Eigen::Index i = 0; i < 3000; ++i) values[i] += std::polar(1.0, lines[i] / 100) * lines[i] / 1000.0;
+  const Eigen::VectorXd variance =
+      estimated_variance(lines, values, Eigen::VectorXd::Ones(3000), floor_shapes(lines));
+  CHECK((variance.array() / 1e-12).mean() == Approx(1).margin(0.2));
+  CHECK((variance.array() / 1e-12).maxCoeff() < 3);
 }
 
 TEST_CASE("white residuals have correlation length 1, smooth ones more") {
@@ -53,9 +70,9 @@ TEST_CASE("noise that follows a sharp peak is told from a floor") {
   const double level = 0.01 * size.maxCoeff();
   // A window's median scatters by 30 %: the mean over some windows.
   const auto part = [](const Eigen::VectorXd& v) { return v.segment(900, 400).array(); };
-  const Eigen::VectorXd found = estimated_variance(following, size, floors_of(2000));
+  const Eigen::VectorXd found = estimated_variance(lines_of(2000), following, size, floors_of(2000));
   CHECK((part(found) / part(1e-4 * size.cwiseAbs2())).mean() == Approx(1).margin(0.25));
-  const Eigen::VectorXd floor = estimated_variance(level * noise, size, floors_of(2000));
+  const Eigen::VectorXd floor = estimated_variance(lines_of(2000), level * noise, size, floors_of(2000));
   CHECK(part(floor).mean() == Approx(level * level).epsilon(0.25));
 }
 
@@ -90,7 +107,8 @@ TEST_CASE("a floor of the acceleration, or of the velocity, is recognised in the
   for (const std::size_t order : {1u, 2u}) {
     const Eigen::VectorXcd noise = white(lines, 1).cwiseProduct(floors[order].cast<std::complex<double>>());
     const Eigen::VectorXd truth = floors[order].cwiseAbs2();
-    const Eigen::VectorXd first = estimated_variance(noise, Eigen::VectorXd::Ones(lines), floors);
+    const Eigen::VectorXd first =
+        estimated_variance(lines_of(lines), noise, Eigen::VectorXd::Ones(lines), floors);
     CHECK((first.array() / truth.array()).mean() == Approx(1).margin(0.25));
     CHECK((first.array() / truth.array())[0] == Approx(1).margin(0.9));
     const ResidualNoise found = residual_noise(noise, Eigen::VectorXd::Ones(lines), floors);

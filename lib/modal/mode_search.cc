@@ -57,7 +57,7 @@ ModeSearch::ModeSearch(FitData data, std::vector<Eigen::VectorXd> variance, std:
   floors_ = floor_shapes(data_.s.imag());
   if (estimate_noise_) {
     for (const Curve& curve : data_.curves)
-      variance_.push_back(estimated_variance(curve.h, curve.h.cwiseAbs(), floors_));
+      variance_.push_back(estimated_variance(data_.s.imag(), curve.h, curve.h.cwiseAbs(), floors_));
   }
   set_weights();
 }
@@ -120,7 +120,7 @@ void ModeSearch::reweight() {
   for (std::size_t e = 0; e < data_.curves.size(); ++e) {
     const Curve& curve = data_.curves[e];
     const Eigen::VectorXcd model = curve_of(current_.modes, curve, data_.s);
-    variance_[e] = estimated_variance(model - curve.h, model.cwiseAbs(), floors_);
+    variance_[e] = estimated_variance(data_.s.imag(), model - curve.h, model.cwiseAbs(), floors_);
   }
   set_weights();
   current_ = refined(current_.modes, kBetween);

@@ -37,7 +37,8 @@ Taps taps_of(const FrequencyResponse& measured, const Eigen::VectorXd& frequency
   for (auto& entry : frf.entries) {
     entry.variance = known_variance(entry);
     if (entry.variance.size() == 0)
-      entry.variance = estimated_variance(entry.h, entry.h.cwiseAbs(), floor_shapes(frf.frequency_hz));
+      entry.variance =
+          estimated_variance(frf.frequency_hz, entry.h, entry.h.cwiseAbs(), floor_shapes(frf.frequency_hz));
   }
   frf = on_lines(frf, frequency_hz);
   Taps taps;

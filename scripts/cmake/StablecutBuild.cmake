@@ -12,6 +12,7 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
 
 option(STABLECUT_WARNINGS_AS_ERRORS "Stop at any compiler warning in the project's own code" OFF)
 option(STABLECUT_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
+option(STABLECUT_FUZZ "Build the fuzzers of the readers, with clang and the sanitizers" OFF)
 include(CTest)
 
 add_library(stablecut_settings INTERFACE)
@@ -25,6 +26,9 @@ target_compile_options(stablecut_settings INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:-fcx-fortran-rules>
   $<$<BOOL:${STABLECUT_WARNINGS_AS_ERRORS}>:-Werror>)
 target_compile_definitions(stablecut_settings INTERFACE EIGEN_DONT_PARALLELIZE EIGEN_MPL2_ONLY)
+if(STABLECUT_FUZZ)
+  target_compile_options(stablecut_settings INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 if(STABLECUT_SANITIZE)
   target_compile_options(stablecut_settings INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all)
   target_link_options(stablecut_settings INTERFACE -fsanitize=address,undefined)

@@ -1,0 +1,78 @@
+// Universal files (SDRC I-DEAS): dataset 58, functions at nodal degrees of freedom, in text and in binary
+// (58b), and dataset 164, units. Other datasets are passed over.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "document/json_text.h"
+
+namespace stablecut {
+
+/// Records 8 to 11: what an axis holds.
+struct UniversalAxis {
+  int data_type = 0;  ///< 0 unknown, 1 general, 8 displacement, 11 velocity, 12 acceleration, 13 force, 17
+                      ///< time, 18 frequency, ...
+  std::string label;  ///< `NONE` and blanks are empty
+  std::string unit;   ///< likewise
+};
+
+/// A node and a direction: 0 none, 1 to 3 along x, y, z, 4 to 6 about them, negative against them.
+struct UniversalPlace {
+  std::string entity;
+  int node = 0;
+  int direction = 0;
+
+  bool operator==(const UniversalPlace& other) const {
+    return node == other.node && direction == other.direction;
+  }
+};
+
+/// Dataset 164: numbers in the file over these factors are in SI.
+struct UniversalUnits {
+  std::string description;
+  double length_factor = 1;
+  double force_factor = 1;
+};
+
+/// One dataset 58.
+struct UniversalFunction {
+  int number = 0;  ///< 1-based among the file's functions
+  long line = 0;   ///< of record 1; record r (up to 11) is on line + r - 1
+  std::array<std::string, 5> id;
+  int type = 0;  ///< 1 time response, 2 auto spectrum, 4 frequency response, 6 coherence, ...
+  UniversalPlace response, reference;
+  bool is_complex = false;
+  Eigen::VectorXd abscissa;  ///< [values] as written
+  Eigen::VectorXcd values;   ///< [values] as written; not a number where the file says so
+  UniversalAxis abscissa_axis, ordinate, denominator;
+  std::optional<UniversalUnits> units;  ///< the last dataset 164 before it
+
+  /// `line 6 (function 1, record 5)`.
+  std::string place(int record) const;
+};
+
+/// The functions of the file, in its order. Throws DataError with line, function and record for what cannot
+/// be read, and for a file without a dataset 58.
+std::vector<UniversalFunction> read_universal_file(const Source& source);
+
+/// True for a text that begins as a universal file does: -1 on a line of its own, then a number.
+bool looks_like_universal_file(std::string_view text);
+
+/// How numbers are written.
+enum class UniversalForm {
+  kText,   ///< dataset 58: 13 digits a value, 11 for the first abscissa and the step
+  kBinary  ///< dataset 58b: IEEE 754 doubles, little endian
+};
+
+/// Dataset 164 for SI.
+std::string universal_si_units();
+/// One dataset 58 or 58b with complex values in double precision. Equally spaced lines are written as such
+/// where that gives the same lines again (of text: to its digits).
+std::string universal_function(const UniversalFunction& function, UniversalForm form);
+
+}  // namespace stablecut

@@ -1,0 +1,413 @@
+#include "modal/tap_checks.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstdio>
+#include <optional>
+
+#include "base/units.h"
+#include "dynamics/noise.h"
+
+namespace stablecut {
+namespace {
+
+using Complex = std::complex<double>;
+
+// A third of what a half power bandwidth could be: lines further apart differ in what they can tell.
+constexpr double kUnevenLines = 1.05;
+// Windows of lines, a sixth of an octave wide and of five lines at least.
+constexpr double kWindowRatio = 1.1225;
+constexpr Eigen::Index kLeastWindow = 5;
+// A window tells nothing when the noise's deviation is this share of the signal, and ...
+constexpr double kNoiseShare = 0.3;
+// ... cannot be a structure's driving point when its imaginary part is positive by this share of the modulus.
+constexpr double kPositiveShare = 0.1;
+// What is ruined rises towards 0 Hz: by so much over what follows.
+constexpr double kRise = 2;
+// Noise alone: nothing but it in most windows.
+constexpr double kDeadShare = 0.6, kDeadWindows = 0.8;
+constexpr double kWrongSign = 0.8, kPoorCoherence = 0.8;
+constexpr double kLargestPeak = 1e-2, kSmallestPeak = 1e-11;  // m/N
+// A line that stands out by so many deviations, and by so much more than its neighbours do without it.
+constexpr double kOutstanding = 10, kAlone = 20;
+
+std::string text_of(const char* format, double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string number(double value) { return text_of("%.3g", value); }
+std::string percent(double share) { return text_of("%.0f %%", 100 * share); }
+
+std::string name_of(const FrequencyResponseEntry& entry) { return "H" + entry.response + entry.reference; }
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Some neighbouring lines of an entry, by medians.
+struct Window {
+  double lo_hz = 0, hi_hz = 0;
+  double size = 0;      // |H|
+  double noise = 0;     // its deviation over |H|
+  double positive = 0;  // Im H / |H|
+  double real = 0;      // Re H / |H|
+};
+
+std::vector<Window> windows_of(const Eigen::VectorXd& hz, const Eigen::VectorXcd& h,
+                               const Eigen::VectorXd& deviation) {
+  std::vector<Window> windows;
+  for (Eigen::Index first = 0; first < hz.size();) {
+    Eigen::Index end = std::min(first + kLeastWindow, hz.size());
+    while (end < hz.size() && hz[end] <= kWindowRatio * hz[first]) ++end;
+    if (hz.size() - end < kLeastWindow) end = hz.size();
+    std::vector<double> size, noise, positive, real;
+    for (Eigen::Index i = first; i < end; ++i) {
+      const double modulus = std::max(std::abs(h[i]), 1e-300);
+      size.push_back(modulus);
+      noise.push_back(deviation[i] / modulus);
+      positive.push_back(h[i].imag() / modulus);
+      real.push_back(h[i].real() / modulus);
+    }
+    windows.push_back({hz[first], hz[end - 1], median(size), median(noise), median(positive), median(real)});
+    first = end;
+  }
+  return windows;
+}
+
+// One entry with what its lines say.
+struct Channel {
+  const FrequencyResponseEntry* entry = nullptr;
+  std::vector<Window> windows;
+  bool driving_point = false;
+  bool swapped = false;  // a driving point with the other sign in most windows
+  bool dead = false;
+};
+
+bool is_driving_point(const FrequencyResponseEntry& entry) {
+  return entry.response == entry.reference &&
+         entry.response_position_m.value_or(0) == entry.reference_position_m.value_or(0);
+}
+
+class TapChecks {
+ public:
+  TapChecks(const FrequencyResponse& receptance, bool zeros_are_dead)
+      : frf_(receptance), hz_(receptance.frequency_hz), zeros_are_dead_(zeros_are_dead) {
+    const Eigen::VectorXd omega = kTwoPi * hz_;
+    const NoiseShapes floors = floor_shapes(omega);
+    for (const auto& entry : frf_.entries) {
+      if (entry.h.isZero(0)) continue;
+      const Eigen::VectorXd deviation =
+          estimated_variance(omega, entry.h, entry.h.cwiseAbs(), floors).cwiseSqrt();
+      Channel channel{&entry, windows_of(hz_, entry.h, deviation), is_driving_point(entry)};
+      const auto windows = [&](double sign) {
+        return std::count_if(channel.windows.begin(), channel.windows.end(),
+                             [&](const Window& window) { return sign * window.positive > kPositiveShare; });
+      };
+      channel.swapped = channel.driving_point && windows(1) > 4 * windows(-1);
+      channels_.push_back(std::move(channel));
+    }
+  }
+
+  std::vector<std::string> all() {
+    lines();
+    dead_channels();
+    low_end();
+    high_end();
+    signs();
+    opposite_pairs();
+    for (const auto& entry : frf_.entries) coherence(entry);
+    peak();
+    return std::move(findings_);
+  }
+
+ private:
+  void say(const std::string& text) { findings_.push_back(text); }
+
+  void lines() {
+    if (hz_.size() < 3) return;
+    const Eigen::VectorXd steps = hz_.tail(hz_.size() - 1) - hz_.head(hz_.size() - 1);
+    if (steps.maxCoeff() <= kUnevenLines * steps.minCoeff()) return;
+    say("the lines are " + number(steps.minCoeff()) + " to " + number(steps.maxCoeff()) +
+        " Hz apart: each counts alike, so that modes where they lie close are weighed more");
+  }
+
+  void dead_channels() {
+    for (const auto& entry : frf_.entries) {
+      if (zeros_are_dead_ && entry.h.isZero(0))
+        say(name_of(entry) +
+            ": all lines are 0: a dead channel, or one that was not measured; taken as uncoupled");
+      else if (!entry.h.isZero(0) && entry.h.size() > 1 && (entry.h.array() == entry.h[0]).all())
+        say(name_of(entry) +
+            ": the same value on every line: a dead channel; what its modes would be is not measured");
+    }
+    for (Channel& channel : channels_) {
+      const auto count = std::count_if(channel.windows.begin(), channel.windows.end(),
+                                       [](const Window& window) { return window.noise > kDeadShare; });
+      channel.dead = static_cast<double>(count) > kDeadWindows * static_cast<double>(channel.windows.size());
+      if (channel.dead)
+        say(name_of(*channel.entry) +
+            ": nothing but noise: a dead channel, or uncoupled directions; it tells the fit nothing");
+    }
+  }
+
+  static bool tells_nothing(const Channel& channel, const Window& window) {
+    const double positive = channel.swapped ? -window.positive : window.positive;
+    return window.noise > kNoiseShare || (channel.driving_point && positive > kPositiveShare);
+  }
+
+  // Up to where integration has ruined the data: there |H| rises towards 0 Hz, and is noise or no driving
+  // point's. Looked for below the highest window whose acceleration is a twentieth of the largest.
+  std::optional<double> ruined_up_to(const Channel& channel) const {
+    const std::vector<Window>& windows = channel.windows;
+    const auto acceleration = [](const Window& window) { return window.size * window.lo_hz * window.hi_hz; };
+    double most = 0;
+    for (const Window& window : windows) most = std::max(most, acceleration(window));
+    std::size_t end = 0;
+    for (std::size_t i = 0; i < windows.size(); ++i) {
+      if (acceleration(windows[i]) < 0.05 * most && windows[i].hi_hz < hz_[hz_.size() - 1] / 3) end = i + 1;
+    }
+    std::size_t ruined = 0;
+    for (std::size_t i = 0; i < end; ++i) {
+      if (tells_nothing(channel, windows[i])) ruined = i + 1;
+    }
+    if (ruined == 0 || ruined == windows.size()) return std::nullopt;
+    double largest = 0;
+    for (std::size_t i = 0; i < ruined; ++i) largest = std::max(largest, windows[i].size);
+    if (largest < kRise * windows[ruined].size) return std::nullopt;
+    return windows[ruined - 1].hi_hz;
+  }
+
+  void low_end() {
+    for (const Channel& channel : channels_) {
+      if (channel.dead) continue;
+      const auto up_to = ruined_up_to(channel);
+      if (!up_to || *up_to <= usable_from_) continue;
+      usable_from_ = *up_to;
+      worst_ = name_of(*channel.entry);
+    }
+    if (usable_from_ == 0) return;
+    say("below " + number(usable_from_) + " Hz " + worst_ +
+        " rises towards 0 Hz as no structure does (noise, or an imaginary part above 0): what integration "
+        "makes of drift; modes found there are none (--band)");
+  }
+
+  void high_end() {
+    double from = 0;
+    std::string name;
+    for (const Channel& channel : channels_) {
+      if (channel.dead) continue;
+      std::size_t first = channel.windows.size();
+      while (first > 0 && channel.windows[first - 1].noise > kNoiseShare) --first;
+      if (first == channel.windows.size() || first == 0) continue;
+      if (from != 0 && channel.windows[first].lo_hz >= from) continue;
+      from = channel.windows[first].lo_hz;
+      name = name_of(*channel.entry);
+    }
+    if (from > 0)
+      say("above " + number(from) + " Hz " + name +
+          " is within 10 dB of its noise: it adds little but time (--band)");
+  }
+
+  // Share of the windows that tell something in which `part` of H / |H| is positive, weighted by it.
+  double positive_share(const Channel& channel, double Window::*part) const {
+    double positive = 0, all = 0;
+    for (const Window& window : channel.windows) {
+      if (window.lo_hz <= usable_from_ || window.noise > kNoiseShare) continue;
+      all += std::abs(window.*part);
+      positive += std::max(window.*part, 0.0);
+    }
+    return all > 0 ? positive / all : 0.0;
+  }
+
+  // Slope of log |H| over log frequency.
+  static double slope_of(const Channel& channel) {
+    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+    for (const Window& window : channel.windows) {
+      const double u = std::log(window.lo_hz), v = std::log(window.size);
+      n += 1;
+      x += u;
+      y += v;
+      xx += u * u;
+      xy += u * v;
+    }
+    const double spread = n * xx - x * x;
+    return spread > 0 ? (n * xy - x * y) / spread : 0;
+  }
+
+  void signs() {
+    for (const Channel& channel : channels_) {
+      if (!channel.driving_point || channel.dead) continue;
+      const double imaginary = positive_share(channel, &Window::positive);
+      const double real = positive_share(channel, &Window::real);
+      const double slope = slope_of(channel);
+      const std::string name = name_of(*channel.entry);
+      if (imaginary > 0.2 && imaginary < 0.95 && (real > 0.95 || real < 0.05)) {
+        say(name +
+            ": its real part has one sign, where a driving point's imaginary part has: is it a velocity "
+            "(--quantity), or was it one already? The modes would not be the tool's");
+      } else if (imaginary > kWrongSign) {
+        say(name + ": a driving point's imaginary part is negative, this is positive on " +
+            percent(imaginary) +
+            (slope > 0.5
+                 ? ": is it an acceleration (--quantity)? Else the sign of response or force is swapped"
+             : slope < -2.5
+                 ? ": is it a displacement already (--quantity)? Else the sign of response or force is "
+                   "swapped"
+                 : ": the sign of response or force is swapped, or it is another quantity (--quantity)") +
+            "; the modes would give energy away");
+      }
+    }
+  }
+
+  void opposite_pairs() {
+    for (const Channel& a : channels_) {
+      for (const Channel& b : channels_) {
+        if (a.dead || b.dead || a.entry->response >= a.entry->reference ||
+            b.entry->response != a.entry->reference || b.entry->reference != a.entry->response)
+          continue;
+        const double together = (a.entry->h.dot(b.entry->h)).real() / (a.entry->h.norm() * b.entry->h.norm());
+        if (together < -kWrongSign)
+          say(name_of(*a.entry) + " is " + name_of(*b.entry) +
+              " with the other sign: one direction is swapped in one of them (-x in the file or in --entry); "
+              "the modes cannot be reciprocal");
+      }
+    }
+  }
+
+  // Where a channel responds, its coherence should be near 1.
+  void coherence(const FrequencyResponseEntry& entry) {
+    if (entry.coherence.size() == 0) return;
+    const Eigen::VectorXd size = entry.h.cwiseAbs();
+    const double typical = median(std::vector<double>(size.begin(), size.end()));
+    std::vector<Eigen::Index> responding, poor;
+    for (Eigen::Index i = 0; i < hz_.size(); ++i) {
+      if (size[i] < 0.3 * typical) continue;
+      responding.push_back(i);
+      if (entry.coherence[i] < kPoorCoherence) poor.push_back(i);
+    }
+    if (poor.size() * 20 < responding.size()) return;
+    std::string text = name_of(entry) + ": coherence below " + number(kPoorCoherence) + " on " +
+                       percent(static_cast<double>(poor.size()) / static_cast<double>(responding.size())) +
+                       " of the lines that respond, from " + number(hz_[poor.front()]) + " to " +
+                       number(hz_[poor.back()]) + " Hz";
+    const auto delay = time_between_hits(entry);
+    text += delay ? ", with dips every " + number(1 / *delay) + " Hz, as of a second hit " +
+                        number(1e3 * *delay) + " ms after the first"
+                  : ": noise, a double hit or a changing structure";
+    say(text + (entry.averages ? "; such lines weigh less" : "; with --averages N such lines weigh less"));
+  }
+
+  // Two hits make the force vanish on lines at equal distances: one period holds most of the dips.
+  std::optional<double> time_between_hits(const FrequencyResponseEntry& entry) const {
+    constexpr int kMostDips = 200, kLeastDips = 4;
+    const Eigen::Index lines = hz_.size();
+    const Eigen::VectorXd dips = (1 - entry.coherence.array()).matrix();
+    const double mean = dips.mean();
+    const double power = (dips.array() - mean).square().mean();
+    const double band = hz_[lines - 1] - hz_[0];
+    if (!(power > 0) || !(band > 0)) return std::nullopt;
+    double best = 0;
+    int best_dips = 0;
+    for (int count = kLeastDips; count <= std::min<int>(kMostDips, static_cast<int>(lines / 4)); ++count) {
+      Complex sum = 0;
+      for (Eigen::Index i = 0; i < lines; ++i)
+        sum += (dips[i] - mean) * std::polar(1.0, kTwoPi * count * (hz_[i] - hz_[0]) / band);
+      const double share = 2 * std::norm(sum / static_cast<double>(lines)) / power;
+      if (share <= best) continue;
+      best = share;
+      best_dips = count;
+    }
+    if (best < 0.25) return std::nullopt;
+    return best_dips / band;
+  }
+
+  void peak() {
+    double largest = 0;
+    for (const Channel& channel : channels_) {
+      for (Eigen::Index i = 0; i < hz_.size(); ++i) {
+        if (hz_[i] > usable_from_) largest = std::max(largest, std::abs(channel.entry->h[i]));
+      }
+    }
+    if (largest == 0 || (largest <= kLargestPeak && largest >= kSmallestPeak)) return;
+    say("the largest receptance is " + number(largest) + " m/N, a structure as " +
+        (largest > kLargestPeak ? "soft" : "stiff") + " as " + number(1 / largest) +
+        " N/m: is that the unit (--unit, --quantity)? Depths of cut would be wrong by as much");
+  }
+
+  const FrequencyResponse& frf_;
+  const Eigen::VectorXd& hz_;
+  const bool zeros_are_dead_;
+  std::vector<Channel> channels_;
+  double usable_from_ = 0;
+  std::string worst_;
+  std::vector<std::string> findings_;
+};
+
+// Lagrange's weights of the values at `from` for the value at x.
+template <std::size_t N>
+std::array<double, N> interpolation(const std::array<double, N>& from, double x) {
+  std::array<double, N> weights{};
+  for (std::size_t a = 0; a < N; ++a) {
+    weights[a] = 1;
+    for (std::size_t b = 0; b < N; ++b)
+      if (b != a) weights[a] *= (x - from[b]) / (from[a] - from[b]);
+  }
+  return weights;
+}
+
+// How far line `at` is from the cubic through four others, and the deviation that the noise gives to that.
+struct Departure {
+  double distance = 0, expected = 0;
+};
+Departure departure(const Eigen::VectorXd& hz, const Eigen::VectorXcd& h, double deviation, Eigen::Index at,
+                    const std::array<Eigen::Index, 4>& others) {
+  std::array<double, 4> places{};
+  for (std::size_t k = 0; k < 4; ++k) places[k] = hz[others[k]];
+  const auto weights = interpolation(places, hz[at]);
+  Complex predicted = 0;
+  double square = 1;
+  for (std::size_t k = 0; k < 4; ++k) {
+    predicted += weights[k] * h[others[k]];
+    square += weights[k] * weights[k];
+  }
+  return {std::abs(h[at] - predicted), deviation * std::sqrt(square)};
+}
+
+}  // namespace
+
+std::vector<std::string> tap_findings(const FrequencyResponse& receptance, bool zeros_are_dead) {
+  return TapChecks(receptance, zeros_are_dead).all();
+}
+
+std::vector<Eigen::Index> disturbed_lines(const FrequencyResponse& receptance) {
+  const Eigen::VectorXd& hz = receptance.frequency_hz;
+  const Eigen::VectorXd omega = kTwoPi * hz;
+  const NoiseShapes floors = floor_shapes(omega);
+  std::vector<Eigen::Index> lines;
+  for (const auto& entry : receptance.entries) {
+    if (entry.h.isZero(0)) continue;
+    const Eigen::VectorXd deviation =
+        estimated_variance(omega, entry.h, entry.h.cwiseAbs(), floors).cwiseSqrt();
+    for (Eigen::Index i = 3; i + 3 < hz.size(); ++i) {
+      const Departure own = departure(hz, entry.h, deviation[i], i, {i - 2, i - 1, i + 1, i + 2});
+      if (!(own.distance > kOutstanding * own.expected)) continue;
+      // The neighbours, seen without this line.
+      const Departure below = departure(hz, entry.h, deviation[i - 1], i - 1, {i - 3, i - 2, i + 1, i + 2});
+      const Departure above = departure(hz, entry.h, deviation[i + 1], i + 1, {i - 2, i - 1, i + 2, i + 3});
+      if (std::max(below.distance, above.distance) * kAlone < own.distance ||
+          (below.distance < 3 * below.expected && above.distance < 3 * above.expected))
+        lines.push_back(i);
+    }
+  }
+  std::sort(lines.begin(), lines.end());
+  lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
+  return lines;
+}
+
+}  // namespace stablecut
