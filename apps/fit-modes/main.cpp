@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
 
@@ -24,12 +23,6 @@ namespace stablecut {
 namespace {
 
 constexpr int kHighestOrder = 40;  // of the stabilization diagram, pole pairs
-
-std::string percent(double share) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
-  return text;
-}
 
 class FitModes : public cli::Tool {
  public:
@@ -159,7 +152,7 @@ class FitModes : public cli::Tool {
     refuse(noise_options_, "with --synthesize");
     if (convert_) {
       refuse(fit_options_, "without --convert");
-      write_frf(main_output(), read_measurement());
+      write_frf(main_output(), with_known_averages(read_measurement()));
       return;
     }
     if (!to_.empty())
@@ -185,6 +178,18 @@ class FitModes : public cli::Tool {
     write_frf(main_output(), frf);
   }
 
+  // A frf document says how many averages are behind a coherence.
+  FrequencyResponse with_known_averages(FrequencyResponse frf) const {
+    bool lost = false;
+    for (auto& entry : frf.entries) {
+      if (entry.coherence.size() == 0 || entry.averages) continue;
+      entry.coherence.resize(0);
+      lost = true;
+    }
+    if (lost) warn(input_name_ + ": coherences are left out: --averages N says how many are behind them");
+    return frf;
+  }
+
   void write_frf(const std::string& path, const FrequencyResponse& frf) {
     if (!to_.starts_with("uff")) {
       write_document(path, frf_to_json(frf));
@@ -204,7 +209,6 @@ class FitModes : public cli::Tool {
     const FrequencyResponse used = without_disturbed_lines(measured);
     const ModalFit result = fit_measured(used);
     for (const std::string& text : result.warnings) warn(input_name_ + ": " + text);
-    say_reciprocity(result);
 
     const ModalModel table = table_of(result);
     Json document = modal_table_to_json(table);
@@ -245,16 +249,6 @@ class FitModes : public cli::Tool {
     return without_lines(measured, lines);
   }
 
-  void say_reciprocity(const ModalFit& result) const {
-    constexpr double kClear = 0.1;
-    if (!result.reciprocity || result.reciprocity->index < std::max(kClear, 3 * result.reciprocity->noise))
-      return;
-    warn(input_name_ + ": cross entries differ from their mirror images by " +
-         percent(result.reciprocity->index) + ", noise alone would by " + percent(result.reciprocity->noise) +
-         ": not reciprocal, as a controlled robot is, or taps at other places than the sensor's; the modes "
-         "follow what was measured");
-  }
-
   ModalModel table_of(const ModalFit& result) const {
     if (window_decay_per_s_ == 0) return result.model;
     try {
@@ -285,6 +279,27 @@ class FitModes : public cli::Tool {
     }
   }
 
+  // Options that the input's form has no use for are a mistake.
+  void check_form(const cli::Input& input) {
+    const FrfForm form = frf_form_of(input, choice_);
+    if (form != FrfForm::kUniversalFile && (!choice_.functions.empty() || choice_.node))
+      throw cli::Failure(cli::ExitStatus::kUsage,
+                         input.source.name + ": expected a universal file with --functions and --node");
+    form_is_json_ = form == FrfForm::kJson;
+    if (!form_is_json_) return;
+    if (choice_.unit || choice_.averages)
+      throw cli::Failure(
+          cli::ExitStatus::kUsage,
+          input.source.name +
+              ": a frf document says its units and averages itself: expected no --unit, no --averages");
+    if (!choice_.quantity) return;
+    const Quantity told = frf_from_json(input.document, input.source).quantity;
+    if (told != *choice_.quantity) {
+      throw cli::Failure(cli::ExitStatus::kUsage, "--quantity: " + quantity_ + ": expected " +
+                                                      quantity_name(told) + ", as the document says");
+    }
+  }
+
   // What the input, or the files of --entry, hold in the band, in the quantity that was measured.
   FrequencyResponse read_measurement() {
     choice_.form = frf_form_from_name(from_);
@@ -297,13 +312,16 @@ class FitModes : public cli::Tool {
     if (parts_.empty()) {
       const cli::Input input = read_main_input(form);
       input_name_ = input.source.name;
+      check_form(input);
       frf = import_frf(input, choice_, remarks);
-      form_is_json_ = !input.document.is_null();
       for (std::string& remark : remarks) remark = input_name_ + ": " + remark;
     } else {
       if (main_input() != "-")
         throw cli::Failure(cli::ExitStatus::kUsage, main_input() + ": expected no other input with --entry");
-      for (std::size_t i = 0; i < parts_.size(); ++i) parts_[i].input = read_input(part_paths_[i], form);
+      for (std::size_t i = 0; i < parts_.size(); ++i) {
+        parts_[i].input = read_input(part_paths_[i], form);
+        check_form(parts_[i].input);
+      }
       input_name_ = parts_[0].input.source.name;
       frf = import_frf_parts(parts_, choice_, remarks);
     }

@@ -1,9 +1,10 @@
 #include "document/error.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <string_view>
 #include <utility>
+
+#include "base/number_text.h"
 
 namespace stablecut {
 namespace {
@@ -55,11 +56,7 @@ std::string pointer_step(const std::string& pointer, const std::string& step) {
 
 std::string line_place(long line) { return "line " + std::to_string(line); }
 
-std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
+std::string short_number(double value) { return printed("%g", value); }
 
 std::string shown(std::string value) {
   constexpr std::size_t kLongest = 60;

@@ -16,11 +16,6 @@ constexpr std::array<std::pair<const char*, FrfForm>, 4> kForms = {{{"json", Frf
                                                                     {"csv", FrfForm::kColumns},
                                                                     {"frf", FrfForm::kCutPro}}};
 
-FrfForm form_of(const Input& input) {
-  if (!input.document.is_null()) return FrfForm::kJson;
-  return looks_like_universal_file(input.source.text) ? FrfForm::kUniversalFile : FrfForm::kColumns;
-}
-
 std::string lines_of(const FrequencyResponse& frf) {
   return std::to_string(frf.frequency_hz.size()) + " lines from " + short_number(frf.frequency_hz[0]) +
          " to " + short_number(frf.frequency_hz[frf.frequency_hz.size() - 1]) + " Hz";
@@ -35,8 +30,14 @@ std::optional<FrfForm> frf_form_from_name(const std::string& name) {
   return std::nullopt;
 }
 
+FrfForm frf_form_of(const Input& input, const FrfChoice& choice) {
+  if (choice.form) return *choice.form;
+  if (!input.document.is_null()) return FrfForm::kJson;
+  return looks_like_universal_file(input.source.text) ? FrfForm::kUniversalFile : FrfForm::kColumns;
+}
+
 FrequencyResponse import_frf(const Input& input, const FrfChoice& choice, std::vector<std::string>& remarks) {
-  const FrfForm form = choice.form.value_or(form_of(input));
+  const FrfForm form = frf_form_of(input, choice);
   if (form == FrfForm::kUniversalFile) {
     return frf_from_universal_file(
         input.source, {choice.quantity, choice.unit, choice.functions, choice.node, choice.averages},
@@ -47,10 +48,9 @@ FrequencyResponse import_frf(const Input& input, const FrfChoice& choice, std::v
         input.source, {choice.quantity, choice.unit, choice.averages, form == FrfForm::kCutPro}, remarks);
   }
   FrequencyResponse frf = frf_from_json(input.document, input.source);
-  const auto told = choice.unit ? std::optional(choice.unit->quantity) : choice.quantity;
-  if (told && frf.quantity != *told) {
+  if (choice.quantity && frf.quantity != *choice.quantity) {
     throw DataError(input.source.name, "/quantity", quantity_name(frf.quantity),
-                    std::string("expected ") + quantity_name(*told) + ", as the options say");
+                    std::string("expected ") + quantity_name(*choice.quantity) + ", as --quantity says");
   }
   return frf;
 }
@@ -91,10 +91,14 @@ FrequencyResponse import_frf_parts(const std::vector<FrfPart>& parts, const FrfC
                       "expected one in a file of --entry (--functions LIST takes some of them)");
     }
     FrequencyResponseEntry& entry = frf.entries[0];
+    const std::string told = entry.response + entry.reference;
     std::string response = part.response, reference = part.reference;
     entry.h *= take_sign(response) * take_sign(reference);
     entry.response = response;
     entry.reference = reference;
+    const FrfForm form = frf_form_of(part.input, choice);
+    if ((form == FrfForm::kJson || form == FrfForm::kUniversalFile) && told != response + reference)
+      remarks.push_back(name + ": says " + told + ": taken for " + response + reference);
     if (all.entries.empty()) {
       all = std::move(frf);
       continue;

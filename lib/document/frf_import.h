@@ -26,6 +26,9 @@ struct FrfChoice {
   std::optional<double> averages;  ///< behind coherences that came without
 };
 
+/// The form that is read: the one that was chosen, else by content.
+FrfForm frf_form_of(const Input& input, const FrfChoice& choice);
+
 /// The frequency responses of one input, in SI. Remarks are what the user should know about how the file was
 /// read. Throws DataError; a quantity that a `frf` document contradicts is one too.
 FrequencyResponse import_frf(const Input& input, const FrfChoice& choice, std::vector<std::string>& remarks);

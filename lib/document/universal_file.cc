@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 
+#include "base/number_text.h"
 #include "base/range.h"
 #include "document/error.h"
 
@@ -509,12 +510,6 @@ UniversalUnits read_units(const Source& source, LineReader& lines) {
   return units;
 }
 
-std::string printed(const char* format, double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 // As many digits as twelve characters hold, right-aligned in thirteen columns.
 std::string in_13_columns(double value) {
   std::string text;
@@ -564,10 +559,10 @@ std::string UniversalFunction::place(int record) const {
 }
 
 bool looks_like_universal_file(std::string_view text) {
+  constexpr long kLinesInFront = 50;
   LineReader lines(text);
-  for (auto line = lines.next(); line; line = lines.next()) {
-    if (trimmed(*line).empty()) continue;
-    if (!is_delimiter(*line)) return false;
+  for (auto line = lines.next(); line && lines.line() <= kLinesInFront; line = lines.next()) {
+    if (!is_delimiter(*line)) continue;
     const auto header = lines.next();
     return header && dataset_header(*header);
   }

@@ -60,7 +60,7 @@ struct UniversalFunction {
 /// be read, and for a file without a dataset 58.
 std::vector<UniversalFunction> read_universal_file(const Source& source);
 
-/// True for a text that begins as a universal file does: -1 on a line of its own, then a number.
+/// True for a text that has a line -1 near its beginning, and a dataset's number below it.
 bool looks_like_universal_file(std::string_view text);
 
 /// How numbers are written.

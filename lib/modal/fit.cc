@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <cstdio>
 #include <memory>
 #include <numeric>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "base/units.h"
 #include "modal/fit_data.h"
 #include "modal/fitted_table.h"
@@ -61,14 +61,6 @@ std::vector<Eigen::VectorXd> known_variances(const FrequencyResponse& measured, 
   }
   return result;
 }
-
-std::string printed(const char* format, double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-std::string percent(double share) { return printed(share < 0.1 ? "%.2g %%" : "%.0f %%", 100 * share); }
 
 // Entries that the document does not have although it has both of their directions.
 std::string missing_entries(const FrequencyResponse& measured, const std::vector<std::string>& dofs) {

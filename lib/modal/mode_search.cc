@@ -273,10 +273,11 @@ double ModeSearch::inflation_of(const RefinedModes& modes) const {
 }
 
 // Chi-square that a mode must take away: half its real parameters times the log of the number of values
-// (Schwarz), of what the residual with the mode tells: one that is not made of modes prices all of them
-// higher.
+// (Schwarz), and the log of how many lines it could have stood on, since noise is searched on all of them; of
+// what the residual with the mode tells: one that is not made of modes prices all of them higher.
 double ModeSearch::price(const RefinedModes& with, const RefinedModes& without) const {
-  const double information = (parameters_per_mode() / 2) * std::log(data_.values());
+  const double information = (parameters_per_mode() / 2) * std::log(data_.values()) +
+                             std::log(static_cast<double>(data_.lines()));
   if (limited_by_model_) {
     const double share = relative_error(without.modes) > kModelErrorFloor ? kLesserShare : kLargerShare;
     return std::max(information, share * without.chi_square);

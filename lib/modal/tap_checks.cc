@@ -1,12 +1,13 @@
 #include "modal/tap_checks.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
-#include <cstdio>
 #include <optional>
 
+#include "base/number_text.h"
 #include "base/units.h"
 #include "dynamics/noise.h"
 
@@ -15,11 +16,12 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// A third of what a half power bandwidth could be: lines further apart differ in what they can tell.
 constexpr double kUnevenLines = 1.05;
 // Windows of lines, a sixth of an octave wide and of five lines at least.
 constexpr double kWindowRatio = 1.1225;
 constexpr Eigen::Index kLeastWindow = 5;
+// Of fewer lines nothing can be said.
+constexpr Eigen::Index kLeastLines = 20;
 // A window tells nothing when the noise's deviation is this share of the signal, and ...
 constexpr double kNoiseShare = 0.3;
 // ... cannot be a structure's driving point when its imaginary part is positive by this share of the modulus.
@@ -28,19 +30,14 @@ constexpr double kPositiveShare = 0.1;
 constexpr double kRise = 2;
 // Noise alone: nothing but it in most windows.
 constexpr double kDeadShare = 0.6, kDeadWindows = 0.8;
-constexpr double kWrongSign = 0.8, kPoorCoherence = 0.8;
+constexpr double kWrongSign = 0.8, kPoorCoherence = 0.8, kNotReciprocal = 0.1;
+// Of the variance of the coherence, in one period.
+constexpr double kOnePeriod = 0.25;
 constexpr double kLargestPeak = 1e-2, kSmallestPeak = 1e-11;  // m/N
-// A line that stands out by so many deviations, and by so much more than its neighbours do without it.
-constexpr double kOutstanding = 10, kAlone = 20;
+// A line that stands out by so many deviations.
+constexpr double kOutstanding = 10;
 
-std::string text_of(const char* format, double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-std::string number(double value) { return text_of("%.3g", value); }
-std::string percent(double share) { return text_of("%.0f %%", 100 * share); }
+std::string number(double value) { return printed("%.3g", value); }
 
 std::string name_of(const FrequencyResponseEntry& entry) { return "H" + entry.response + entry.reference; }
 
@@ -83,6 +80,7 @@ std::vector<Window> windows_of(const Eigen::VectorXd& hz, const Eigen::VectorXcd
 // One entry with what its lines say.
 struct Channel {
   const FrequencyResponseEntry* entry = nullptr;
+  Eigen::VectorXd deviation;  // of the noise, [lines]
   std::vector<Window> windows;
   bool driving_point = false;
   bool swapped = false;  // a driving point with the other sign in most windows
@@ -104,7 +102,7 @@ class TapChecks {
       if (entry.h.isZero(0)) continue;
       const Eigen::VectorXd deviation =
           estimated_variance(omega, entry.h, entry.h.cwiseAbs(), floors).cwiseSqrt();
-      Channel channel{&entry, windows_of(hz_, entry.h, deviation), is_driving_point(entry)};
+      Channel channel{&entry, deviation, windows_of(hz_, entry.h, deviation), is_driving_point(entry)};
       const auto windows = [&](double sign) {
         return std::count_if(channel.windows.begin(), channel.windows.end(),
                              [&](const Window& window) { return sign * window.positive > kPositiveShare; });
@@ -120,7 +118,7 @@ class TapChecks {
     low_end();
     high_end();
     signs();
-    opposite_pairs();
+    mirror_images();
     for (const auto& entry : frf_.entries) coherence(entry);
     peak();
     return std::move(findings_);
@@ -265,19 +263,33 @@ class TapChecks {
     }
   }
 
-  void opposite_pairs() {
+  void mirror_images() {
+    double difference = 0, sizes = 0, noise = 0;
     for (const Channel& a : channels_) {
       for (const Channel& b : channels_) {
         if (a.dead || b.dead || a.entry->response >= a.entry->reference ||
             b.entry->response != a.entry->reference || b.entry->reference != a.entry->response)
           continue;
-        const double together = (a.entry->h.dot(b.entry->h)).real() / (a.entry->h.norm() * b.entry->h.norm());
-        if (together < -kWrongSign)
+        const Eigen::VectorXcd& of_a = a.entry->h;
+        const Eigen::VectorXcd& of_b = b.entry->h;
+        if (of_a.dot(of_b).real() < -kWrongSign * of_a.norm() * of_b.norm()) {
           say(name_of(*a.entry) + " is " + name_of(*b.entry) +
               " with the other sign: one direction is swapped in one of them (-x in the file or in --entry); "
               "the modes cannot be reciprocal");
+          return;
+        }
+        difference += (of_a - of_b).squaredNorm();
+        sizes += std::pow(of_a.norm() + of_b.norm(), 2);
+        noise += a.deviation.squaredNorm() + b.deviation.squaredNorm();
       }
     }
+    if (sizes == 0) return;
+    const double index = std::sqrt(difference / sizes), of_noise = std::sqrt(noise / sizes);
+    if (index < std::max(kNotReciprocal, 3 * of_noise)) return;
+    say("cross entries differ from their mirror images by " + percent(index) + ", noise alone would by " +
+        percent(of_noise) +
+        ": not reciprocal, as a controlled robot is, or taps at other places than the sensor's; the modes "
+        "follow what was measured");
   }
 
   // Where a channel responds, its coherence should be near 1.
@@ -305,26 +317,26 @@ class TapChecks {
 
   // Two hits make the force vanish on lines at equal distances: one period holds most of the dips.
   std::optional<double> time_between_hits(const FrequencyResponseEntry& entry) const {
-    constexpr int kMostDips = 200, kLeastDips = 4;
+    constexpr double kMostDips = 200, kLeastDips = 4, kStep = 0.25;
     const Eigen::Index lines = hz_.size();
     const Eigen::VectorXd dips = (1 - entry.coherence.array()).matrix();
     const double mean = dips.mean();
     const double power = (dips.array() - mean).square().mean();
     const double band = hz_[lines - 1] - hz_[0];
     if (!(power > 0) || !(band > 0)) return std::nullopt;
-    double best = 0;
-    int best_dips = 0;
-    for (int count = kLeastDips; count <= std::min<int>(kMostDips, static_cast<int>(lines / 4)); ++count) {
+    double most = 0, delay = 0;
+    for (double count = kLeastDips; count <= std::min(kMostDips, static_cast<double>(lines) / 4);
+         count += kStep) {
+      const Complex turn_s(0, kTwoPi * count / band);
       Complex sum = 0;
-      for (Eigen::Index i = 0; i < lines; ++i)
-        sum += (dips[i] - mean) * std::polar(1.0, kTwoPi * count * (hz_[i] - hz_[0]) / band);
+      for (Eigen::Index i = 0; i < lines; ++i) sum += (dips[i] - mean) * std::exp(turn_s * (hz_[i] - hz_[0]));
       const double share = 2 * std::norm(sum / static_cast<double>(lines)) / power;
-      if (share <= best) continue;
-      best = share;
-      best_dips = count;
+      if (share <= most) continue;
+      most = share;
+      delay = count / band;
     }
-    if (best < 0.25) return std::nullopt;
-    return best_dips / band;
+    if (most < kOnePeriod) return std::nullopt;
+    return delay;
   }
 
   void peak() {
@@ -349,61 +361,109 @@ class TapChecks {
   std::vector<std::string> findings_;
 };
 
-// Lagrange's weights of the values at `from` for the value at x.
-template <std::size_t N>
-std::array<double, N> interpolation(const std::array<double, N>& from, double x) {
-  std::array<double, N> weights{};
-  for (std::size_t a = 0; a < N; ++a) {
-    weights[a] = 1;
-    for (std::size_t b = 0; b < N; ++b)
-      if (b != a) weights[a] *= (x - from[b]) / (from[a] - from[b]);
-  }
-  return weights;
-}
+// Lines that stand out of what their neighbours say, in one entry.
+class DisturbedLines {
+ public:
+  DisturbedLines(const Eigen::VectorXd& hz, const Eigen::VectorXcd& h)
+      : hz_(hz),
+        h_(h),
+        variance_(estimated_variance(hz, h, h.cwiseAbs(), floor_shapes(hz))),
+        out_(static_cast<std::size_t>(hz.size()), false) {}
 
-// How far line `at` is from the cubic through four others, and the deviation that the noise gives to that.
-struct Departure {
-  double distance = 0, expected = 0;
-};
-Departure departure(const Eigen::VectorXd& hz, const Eigen::VectorXcd& h, double deviation, Eigen::Index at,
-                    const std::array<Eigen::Index, 4>& others) {
-  std::array<double, 4> places{};
-  for (std::size_t k = 0; k < 4; ++k) places[k] = hz[others[k]];
-  const auto weights = interpolation(places, hz[at]);
-  Complex predicted = 0;
-  double square = 1;
-  for (std::size_t k = 0; k < 4; ++k) {
-    predicted += weights[k] * h[others[k]];
-    square += weights[k] * weights[k];
+  // The one that stands out most first: the others may only stand out because of it.
+  std::vector<Eigen::Index> find() {
+    std::vector<double> shares;
+    for (Eigen::Index i = 0; i < h_.size(); ++i)
+      shares.push_back(std::sqrt(variance_[i]) / std::max(std::abs(h_[i]), 1e-300));
+    if (median(std::move(shares)) > kNoiseShare) return {};  // nothing but noise
+    std::vector<double> standing(static_cast<std::size_t>(h_.size()), 0.0);
+    for (Eigen::Index i = 0; i < h_.size(); ++i) standing[static_cast<std::size_t>(i)] = outstanding(i);
+    std::vector<Eigen::Index> lines;
+    for (;;) {
+      const auto most = std::max_element(standing.begin(), standing.end());
+      if (*most < kOutstanding) return lines;
+      const Eigen::Index at = most - standing.begin();
+      lines.push_back(at);
+      out_[static_cast<std::size_t>(at)] = true;
+      for (Eigen::Index i = std::max<Eigen::Index>(at - kReach, 0); i <= std::min(at + kReach, h_.size() - 1);
+           ++i)
+        standing[static_cast<std::size_t>(i)] = outstanding(i);
+    }
   }
-  return {std::abs(h[at] - predicted), deviation * std::sqrt(square)};
-}
+
+ private:
+  static constexpr Eigen::Index kReach = 12;
+  static constexpr std::size_t kEachSide = 4;
+
+  // The nearest lines that are not out, `count` on each side; fewer at the ends.
+  std::vector<Eigen::Index> neighbours(Eigen::Index at, std::size_t count) const {
+    std::vector<Eigen::Index> lines;
+    for (const Eigen::Index step : {-1, 1}) {
+      std::size_t found = 0;
+      for (Eigen::Index i = at + step; i >= 0 && i < h_.size() && found < count && std::abs(i - at) <= kReach;
+           i += step) {
+        if (out_[static_cast<std::size_t>(i)]) continue;
+        lines.push_back(i);
+        ++found;
+      }
+    }
+    return lines;
+  }
+
+  // Distance of the line from what a model of its neighbours says, linear in its unknowns and with the value
+  // on the line as the first, over the deviation that noise gives to it.
+  double distance(Eigen::Index at, const std::vector<Eigen::Index>& others, bool one_pole) const {
+    const auto rows = static_cast<Eigen::Index>(others.size());
+    Eigen::Matrix<Complex, Eigen::Dynamic, 4> design(rows, 4);
+    Eigen::VectorXcd values(rows);
+    double noise = 0;
+    const double scale = hz_[others.back()] - hz_[others.front()];
+    for (Eigen::Index r = 0; r < rows; ++r) {
+      const Eigen::Index i = others[static_cast<std::size_t>(r)];
+      const double x = (hz_[i] - hz_[at]) / scale;
+      values[r] = h_[i];
+      // A cubic, or a quadratic over 1 + a x, which holds a resonance between two lines or over some.
+      design.row(r) << 1, x, x * x, one_pole ? -x * h_[i] : Complex(x * x * x);
+      noise += variance_[i];
+    }
+    const Eigen::Vector4d norms = design.colwise().norm().cwiseMax(1e-300);
+    const Eigen::MatrixXcd scaled = design * norms.cwiseInverse().asDiagonal();
+    const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXcd> solver(scaled);
+    const Eigen::MatrixXcd inverse = solver.pseudoInverse();
+    const Complex predicted = (inverse.row(0) * values).value() / norms[0];
+    const double spread = 1 + inverse.row(0).squaredNorm() / (norms[0] * norms[0]);
+    const double deviation = std::sqrt(spread * noise / static_cast<double>(rows));
+    return std::abs(h_[at] - predicted) / std::max(deviation, 1e-13 * std::abs(h_[at]));
+  }
+
+  // By the simpler model first: only few lines need the other.
+  double outstanding(Eigen::Index at) const {
+    if (out_[static_cast<std::size_t>(at)]) return 0;
+    const std::vector<Eigen::Index> near = neighbours(at, 2), far = neighbours(at, kEachSide);
+    if (near.size() < 4 || far.size() < 2 * kEachSide) return 0;
+    const double by_cubic = distance(at, near, false);
+    return by_cubic < kOutstanding ? 0 : std::min(by_cubic, distance(at, far, true));
+  }
+
+  const Eigen::VectorXd& hz_;
+  const Eigen::VectorXcd& h_;
+  const Eigen::VectorXd variance_;
+  std::vector<bool> out_;
+};
 
 }  // namespace
 
 std::vector<std::string> tap_findings(const FrequencyResponse& receptance, bool zeros_are_dead) {
+  if (receptance.frequency_hz.size() < kLeastLines) return {};
   return TapChecks(receptance, zeros_are_dead).all();
 }
 
 std::vector<Eigen::Index> disturbed_lines(const FrequencyResponse& receptance) {
-  const Eigen::VectorXd& hz = receptance.frequency_hz;
-  const Eigen::VectorXd omega = kTwoPi * hz;
-  const NoiseShapes floors = floor_shapes(omega);
   std::vector<Eigen::Index> lines;
   for (const auto& entry : receptance.entries) {
-    if (entry.h.isZero(0)) continue;
-    const Eigen::VectorXd deviation =
-        estimated_variance(omega, entry.h, entry.h.cwiseAbs(), floors).cwiseSqrt();
-    for (Eigen::Index i = 3; i + 3 < hz.size(); ++i) {
-      const Departure own = departure(hz, entry.h, deviation[i], i, {i - 2, i - 1, i + 1, i + 2});
-      if (!(own.distance > kOutstanding * own.expected)) continue;
-      // The neighbours, seen without this line.
-      const Departure below = departure(hz, entry.h, deviation[i - 1], i - 1, {i - 3, i - 2, i + 1, i + 2});
-      const Departure above = departure(hz, entry.h, deviation[i + 1], i + 1, {i - 2, i - 1, i + 2, i + 3});
-      if (std::max(below.distance, above.distance) * kAlone < own.distance ||
-          (below.distance < 3 * below.expected && above.distance < 3 * above.expected))
-        lines.push_back(i);
-    }
+    if (entry.h.isZero(0) || entry.h.size() < kLeastLines) continue;
+    const std::vector<Eigen::Index> own = DisturbedLines(receptance.frequency_hz, entry.h).find();
+    lines.insert(lines.end(), own.begin(), own.end());
   }
   std::sort(lines.begin(), lines.end());
   lines.erase(std::unique(lines.begin(), lines.end()), lines.end());

@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# Taps with something wrong in them, testdata/taps/findings: each is said in a line, and nothing is said of a sound one.
+# Behind them stand three modes: 150 Hz, 3 %; 320 Hz, 2.5 %; 700 Hz, 2 %; noise 40 dB below the signal.
+. "$SOURCE/apps/testing.sh"
+cd "$data/taps/findings" || exit 1
+result=$scratch/modes.json err=$scratch/err
+# three_modes: the table holds these poles and no others; of independent or contradicting channels each twice.
+three_modes() {
+  jq -e '[.modes[] | select(.out_of_band | not) | [.frequency_hz, .damping_ratio]] | . as $m
+    | ([[150, 0.03], [320, 0.025], [700, 0.02]] | all(. as $t | any($m[]; (.[0] / $t[0] - 1 | fabs) < 1e-3 and (.[1] / $t[1] - 1 | fabs) < 0.05)))
+    and all($m[]; . as $g | any([[150, 0.03], [320, 0.025], [700, 0.02]][]; (.[0] / $g[0] - 1 | fabs) < 0.01))' "$result" >/dev/null
+}
+while IFS=$'\t' read -r file options expected; do
+  [ "${file:0:1}" != '#' ] || continue
+  [ "$options" != - ] || options=
+  # shellcheck disable=SC2086
+  fit-modes $options "$file" -o "$result" 2>"$err"
+  status=$?
+  if [[ $expected == *FAILS* ]]; then
+    check "$file $options: no answer" test $status -eq 1
+    expected=${expected%% ;; FAILS*}
+  else
+    check "$file $options: fits" test $status -eq 0
+    # What is no receptance has no modes either, and noise leaves fewer digits.
+    case "$file $options" in accelerance.csv' '|noise-above*) ;; *) check "$file $options: the three modes" three_modes ;; esac
+  fi
+  if [ "$expected" = - ]; then
+    check "$file $options: nothing to say, not $(cat "$err")" test ! -s "$err"
+    continue
+  fi
+  while read -r pattern; do
+    check "$file $options: $pattern, not $(cat "$err")" grep -Eq -- "$pattern" "$err"
+  done < <(sed 's/ ;; /\n/g' <<<"$expected")
+  # shellcheck disable=SC2086
+  fit-modes --quiet $options "$file" -o "$result" 2>"$err"
+  check "$file $options: --quiet" test "$status" -ne 0 -o ! -s "$err"
+done <expected.tsv
+for file in *.csv; do check "$file is in expected.tsv" grep -q "^$file	" expected.tsv; done
+
+# The window's decay, as a time constant too; more than a mode has is refused.
+fit-modes --window-decay 6 exponential-window.csv --no-provenance -o "$scratch/a.json" --fitted "$scratch/fitted.json"
+fit-modes --window-decay 0.16666666666666666s exponential-window.csv --no-provenance -o "$scratch/b.json"
+check_jq "a time constant is the inverse of a decay" "$scratch/a.json" '[.modes, $b[0].modes] | transpose | all((.[0].damping_ratio / .[1].damping_ratio - 1) | fabs < 1e-9)' --slurpfile b "$scratch/b.json"
+check_jq "the table says so" "$scratch/a.json" '.fit.window_decay_per_s == 6 and .fit.stopped_by == "noise"'
+fit-modes exponential-window.csv -o "$scratch/windowed.json"
+check_jq "without it the damping is too high" "$scratch/windowed.json" '.modes[0].damping_ratio > 0.035'
+refused 1 '^fit-modes: exponential-window.csv: the mode at 150.* Hz decays by 34.* 1/s, less than the window alone' fit-modes --quiet --window-decay 40 exponential-window.csv
