@@ -205,8 +205,9 @@ class FitModes : public cli::Tool {
 
   void fit() {
     const FrequencyResponse measured = read_receptance();
-    for (const std::string& text : tap_findings(measured, !form_is_json_)) warn(input_name_ + ": " + text);
-    const FrequencyResponse used = without_disturbed_lines(measured);
+    const TapReport report = check_tap(measured, !form_is_json_);
+    for (const std::string& text : report.findings) warn(input_name_ + ": " + text);
+    const FrequencyResponse used = without_disturbed_lines(measured, report.disturbed_lines);
     const ModalFit result = fit_measured(used);
     for (const std::string& text : result.warnings) warn(input_name_ + ": " + text);
 
@@ -232,11 +233,11 @@ class FitModes : public cli::Tool {
   }
 
   // A few lines that mains hum or a spur disturbs would become modes without width.
-  FrequencyResponse without_disturbed_lines(const FrequencyResponse& measured) const {
+  FrequencyResponse without_disturbed_lines(const FrequencyResponse& measured,
+                                            const std::vector<Eigen::Index>& lines) const {
     constexpr Eigen::Index kFew = 5;
     constexpr double kFewShare = 0.02;
     constexpr std::size_t kShown = 5;
-    const std::vector<Eigen::Index> lines = disturbed_lines(measured);
     const auto most = std::max(
         kFew, static_cast<Eigen::Index>(kFewShare * static_cast<double>(measured.frequency_hz.size())));
     if (lines.empty() || static_cast<Eigen::Index>(lines.size()) > most) return measured;

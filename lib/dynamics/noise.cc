@@ -37,21 +37,19 @@ Eigen::VectorXd windowed_mean(const Eigen::VectorXd& square) {
 }
 
 // Weights of the fourth divided differences on the lines, the sum of their squares 1: of equal lines 1, -4,
-// 6, -4, 1 over the root of 70. [5 x lines - 4]
-Eigen::Matrix<double, 5, Eigen::Dynamic> fourth_differences(const Eigen::VectorXd& lines) {
-  Eigen::Matrix<double, 5, Eigen::Dynamic> weights(5, lines.size() - 4);
-  for (Eigen::Index i = 0; i < weights.cols(); ++i) {
-    for (Eigen::Index a = 0; a < 5; ++a) {
-      double product = 1;
-      for (Eigen::Index b = 0; b < 5; ++b) {
-        // In units of the whole stretch, so that nothing over- or underflows.
-        if (b != a) product *= (lines[i + a] - lines[i + b]) / (lines[i + 4] - lines[i]);
-      }
-      weights(a, i) = 1 / product;
-    }
-    weights.col(i).normalize();
+// 6, -4, 1 over the root of 70. [lines - 4 x 5]
+Eigen::Array<double, Eigen::Dynamic, 5> fourth_differences(const Eigen::VectorXd& lines) {
+  const Eigen::Index count = lines.size() - 4;
+  const auto line = [&](Eigen::Index i) { return lines.segment(i, count).array(); };
+  // In units of the whole stretch, so that nothing over- or underflows.
+  const Eigen::ArrayXd stretch = line(4) - line(0);
+  Eigen::Array<double, Eigen::Dynamic, 5> weights = Eigen::Array<double, Eigen::Dynamic, 5>::Ones(count, 5);
+  for (Eigen::Index a = 0; a < 5; ++a) {
+    for (Eigen::Index b = 0; b < 5; ++b)
+      if (b != a) weights.col(a) *= stretch / (line(a) - line(b));
   }
-  return weights;
+  const Eigen::ArrayXd norm = weights.square().rowwise().sum().sqrt();
+  return weights.colwise() / norm;
 }
 
 // Log-likelihood of squared complex Gaussians.
@@ -110,16 +108,18 @@ Eigen::VectorXd estimated_variance(const Eigen::VectorXd& lines, const Eigen::Ve
                                    const Eigen::VectorXd& size, const NoiseShapes& floors) {
   if (values.size() < 6) return Eigen::VectorXd::Zero(values.size());
   const Eigen::Index count = values.size() - 4;
-  const Eigen::Matrix<double, 5, Eigen::Dynamic> weights = fourth_differences(lines);
-  Eigen::VectorXd square(count);
-  for (Eigen::Index i = 0; i < count; ++i)
-    square[i] = std::norm((weights.col(i).transpose() * values.segment<5>(i)).value());
+  const Eigen::Array<double, Eigen::Dynamic, 5> weights = fourth_differences(lines);
+  const Eigen::Array<double, Eigen::Dynamic, 5> shares = weights.square();
+  Eigen::ArrayXcd difference = Eigen::ArrayXcd::Zero(count);
+  for (Eigen::Index a = 0; a < 5; ++a)
+    difference += weights.col(a).cast<std::complex<double>>() * values.segment(a, count).array();
+  const Eigen::VectorXd square = difference.abs2();
   Eigen::VectorXd best;
   double most = 0;
   const auto try_shape = [&](const Eigen::VectorXd& shape) {
     const Eigen::VectorXd v = shape.cwiseAbs2().array().max(1e-300);
-    Eigen::VectorXd expected(count);
-    for (Eigen::Index i = 0; i < count; ++i) expected[i] = weights.col(i).cwiseAbs2().dot(v.segment<5>(i));
+    Eigen::VectorXd expected = Eigen::VectorXd::Zero(count);
+    for (Eigen::Index a = 0; a < 5; ++a) expected.array() += shares.col(a) * v.segment(a, count).array();
     const Eigen::VectorXd level = windowed_mean(square.cwiseQuotient(expected));
     const double likely = likelihood(square, level.segment(2, count).cwiseProduct(expected));
     if (best.size() > 0 && !(likely > most)) return;

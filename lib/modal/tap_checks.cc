@@ -1,6 +1,5 @@
 #include "modal/tap_checks.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include "base/number_text.h"
 #include "base/units.h"
 #include "dynamics/noise.h"
+#include "modal/disturbed_lines.h"
 
 namespace stablecut {
 namespace {
@@ -34,8 +34,6 @@ constexpr double kWrongSign = 0.8, kPoorCoherence = 0.8, kNotReciprocal = 0.1;
 // Of the variance of the coherence, in one period.
 constexpr double kOnePeriod = 0.25;
 constexpr double kLargestPeak = 1e-2, kSmallestPeak = 1e-11;  // m/N
-// A line that stands out by so many deviations.
-constexpr double kOutstanding = 10;
 
 std::string number(double value) { return printed("%.3g", value); }
 
@@ -57,7 +55,7 @@ struct Window {
 };
 
 std::vector<Window> windows_of(const Eigen::VectorXd& hz, const Eigen::VectorXcd& h,
-                               const Eigen::VectorXd& deviation) {
+                               const Eigen::VectorXd& variance) {
   std::vector<Window> windows;
   for (Eigen::Index first = 0; first < hz.size();) {
     Eigen::Index end = std::min(first + kLeastWindow, hz.size());
@@ -67,7 +65,7 @@ std::vector<Window> windows_of(const Eigen::VectorXd& hz, const Eigen::VectorXcd
     for (Eigen::Index i = first; i < end; ++i) {
       const double modulus = std::max(std::abs(h[i]), 1e-300);
       size.push_back(modulus);
-      noise.push_back(deviation[i] / modulus);
+      noise.push_back(std::sqrt(variance[i]) / modulus);
       positive.push_back(h[i].imag() / modulus);
       real.push_back(h[i].real() / modulus);
     }
@@ -80,7 +78,7 @@ std::vector<Window> windows_of(const Eigen::VectorXd& hz, const Eigen::VectorXcd
 // One entry with what its lines say.
 struct Channel {
   const FrequencyResponseEntry* entry = nullptr;
-  Eigen::VectorXd deviation;  // of the noise, [lines]
+  Eigen::VectorXd variance;  // of the noise, [lines]
   std::vector<Window> windows;
   bool driving_point = false;
   bool swapped = false;  // a driving point with the other sign in most windows
@@ -96,13 +94,12 @@ class TapChecks {
  public:
   TapChecks(const FrequencyResponse& receptance, bool zeros_are_dead)
       : frf_(receptance), hz_(receptance.frequency_hz), zeros_are_dead_(zeros_are_dead) {
-    const Eigen::VectorXd omega = kTwoPi * hz_;
-    const NoiseShapes floors = floor_shapes(omega);
+    const NoiseShapes floors = floor_shapes(hz_);
     for (const auto& entry : frf_.entries) {
       if (entry.h.isZero(0)) continue;
-      const Eigen::VectorXd deviation =
-          estimated_variance(omega, entry.h, entry.h.cwiseAbs(), floors).cwiseSqrt();
-      Channel channel{&entry, deviation, windows_of(hz_, entry.h, deviation), is_driving_point(entry)};
+      Channel channel{
+          &entry, estimated_variance(hz_, entry.h, entry.h.cwiseAbs(), floors), {}, is_driving_point(entry)};
+      channel.windows = windows_of(hz_, entry.h, channel.variance);
       const auto windows = [&](double sign) {
         return std::count_if(channel.windows.begin(), channel.windows.end(),
                              [&](const Window& window) { return sign * window.positive > kPositiveShare; });
@@ -112,7 +109,7 @@ class TapChecks {
     }
   }
 
-  std::vector<std::string> all() {
+  TapReport report() {
     lines();
     dead_channels();
     low_end();
@@ -121,7 +118,7 @@ class TapChecks {
     mirror_images();
     for (const auto& entry : frf_.entries) coherence(entry);
     peak();
-    return std::move(findings_);
+    return {std::move(findings_), disturbed()};
   }
 
  private:
@@ -280,7 +277,7 @@ class TapChecks {
         }
         difference += (of_a - of_b).squaredNorm();
         sizes += std::pow(of_a.norm() + of_b.norm(), 2);
-        noise += a.deviation.squaredNorm() + b.deviation.squaredNorm();
+        noise += a.variance.sum() + b.variance.sum();
       }
     }
     if (sizes == 0) return;
@@ -352,6 +349,18 @@ class TapChecks {
         " N/m: is that the unit (--unit, --quantity)? Depths of cut would be wrong by as much");
   }
 
+  std::vector<Eigen::Index> disturbed() const {
+    std::vector<Eigen::Index> lines;
+    for (const Channel& channel : channels_) {
+      if (channel.dead) continue;
+      const std::vector<Eigen::Index> own = disturbed_lines(hz_, channel.entry->h, channel.variance);
+      lines.insert(lines.end(), own.begin(), own.end());
+    }
+    std::sort(lines.begin(), lines.end());
+    lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
+    return lines;
+  }
+
   const FrequencyResponse& frf_;
   const Eigen::VectorXd& hz_;
   const bool zeros_are_dead_;
@@ -361,113 +370,11 @@ class TapChecks {
   std::vector<std::string> findings_;
 };
 
-// Lines that stand out of what their neighbours say, in one entry.
-class DisturbedLines {
- public:
-  DisturbedLines(const Eigen::VectorXd& hz, const Eigen::VectorXcd& h)
-      : hz_(hz),
-        h_(h),
-        variance_(estimated_variance(hz, h, h.cwiseAbs(), floor_shapes(hz))),
-        out_(static_cast<std::size_t>(hz.size()), false) {}
-
-  // The one that stands out most first: the others may only stand out because of it.
-  std::vector<Eigen::Index> find() {
-    std::vector<double> shares;
-    for (Eigen::Index i = 0; i < h_.size(); ++i)
-      shares.push_back(std::sqrt(variance_[i]) / std::max(std::abs(h_[i]), 1e-300));
-    if (median(std::move(shares)) > kNoiseShare) return {};  // nothing but noise
-    std::vector<double> standing(static_cast<std::size_t>(h_.size()), 0.0);
-    for (Eigen::Index i = 0; i < h_.size(); ++i) standing[static_cast<std::size_t>(i)] = outstanding(i);
-    std::vector<Eigen::Index> lines;
-    for (;;) {
-      const auto most = std::max_element(standing.begin(), standing.end());
-      if (*most < kOutstanding) return lines;
-      const Eigen::Index at = most - standing.begin();
-      lines.push_back(at);
-      out_[static_cast<std::size_t>(at)] = true;
-      for (Eigen::Index i = std::max<Eigen::Index>(at - kReach, 0); i <= std::min(at + kReach, h_.size() - 1);
-           ++i)
-        standing[static_cast<std::size_t>(i)] = outstanding(i);
-    }
-  }
-
- private:
-  static constexpr Eigen::Index kReach = 12;
-  static constexpr std::size_t kEachSide = 4;
-
-  // The nearest lines that are not out, `count` on each side; fewer at the ends.
-  std::vector<Eigen::Index> neighbours(Eigen::Index at, std::size_t count) const {
-    std::vector<Eigen::Index> lines;
-    for (const Eigen::Index step : {-1, 1}) {
-      std::size_t found = 0;
-      for (Eigen::Index i = at + step; i >= 0 && i < h_.size() && found < count && std::abs(i - at) <= kReach;
-           i += step) {
-        if (out_[static_cast<std::size_t>(i)]) continue;
-        lines.push_back(i);
-        ++found;
-      }
-    }
-    return lines;
-  }
-
-  // Distance of the line from what a model of its neighbours says, linear in its unknowns and with the value
-  // on the line as the first, over the deviation that noise gives to it.
-  double distance(Eigen::Index at, const std::vector<Eigen::Index>& others, bool one_pole) const {
-    const auto rows = static_cast<Eigen::Index>(others.size());
-    Eigen::Matrix<Complex, Eigen::Dynamic, 4> design(rows, 4);
-    Eigen::VectorXcd values(rows);
-    double noise = 0;
-    const double scale = hz_[others.back()] - hz_[others.front()];
-    for (Eigen::Index r = 0; r < rows; ++r) {
-      const Eigen::Index i = others[static_cast<std::size_t>(r)];
-      const double x = (hz_[i] - hz_[at]) / scale;
-      values[r] = h_[i];
-      // A cubic, or a quadratic over 1 + a x, which holds a resonance between two lines or over some.
-      design.row(r) << 1, x, x * x, one_pole ? -x * h_[i] : Complex(x * x * x);
-      noise += variance_[i];
-    }
-    const Eigen::Vector4d norms = design.colwise().norm().cwiseMax(1e-300);
-    const Eigen::MatrixXcd scaled = design * norms.cwiseInverse().asDiagonal();
-    const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXcd> solver(scaled);
-    const Eigen::MatrixXcd inverse = solver.pseudoInverse();
-    const Complex predicted = (inverse.row(0) * values).value() / norms[0];
-    const double spread = 1 + inverse.row(0).squaredNorm() / (norms[0] * norms[0]);
-    const double deviation = std::sqrt(spread * noise / static_cast<double>(rows));
-    return std::abs(h_[at] - predicted) / std::max(deviation, 1e-13 * std::abs(h_[at]));
-  }
-
-  // By the simpler model first: only few lines need the other.
-  double outstanding(Eigen::Index at) const {
-    if (out_[static_cast<std::size_t>(at)]) return 0;
-    const std::vector<Eigen::Index> near = neighbours(at, 2), far = neighbours(at, kEachSide);
-    if (near.size() < 4 || far.size() < 2 * kEachSide) return 0;
-    const double by_cubic = distance(at, near, false);
-    return by_cubic < kOutstanding ? 0 : std::min(by_cubic, distance(at, far, true));
-  }
-
-  const Eigen::VectorXd& hz_;
-  const Eigen::VectorXcd& h_;
-  const Eigen::VectorXd variance_;
-  std::vector<bool> out_;
-};
-
 }  // namespace
 
-std::vector<std::string> tap_findings(const FrequencyResponse& receptance, bool zeros_are_dead) {
+TapReport check_tap(const FrequencyResponse& receptance, bool zeros_are_dead) {
   if (receptance.frequency_hz.size() < kLeastLines) return {};
-  return TapChecks(receptance, zeros_are_dead).all();
-}
-
-std::vector<Eigen::Index> disturbed_lines(const FrequencyResponse& receptance) {
-  std::vector<Eigen::Index> lines;
-  for (const auto& entry : receptance.entries) {
-    if (entry.h.isZero(0) || entry.h.size() < kLeastLines) continue;
-    const std::vector<Eigen::Index> own = DisturbedLines(receptance.frequency_hz, entry.h).find();
-    lines.insert(lines.end(), own.begin(), own.end());
-  }
-  std::sort(lines.begin(), lines.end());
-  lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
-  return lines;
+  return TapChecks(receptance, zeros_are_dead).report();
 }
 
 }  // namespace stablecut

@@ -9,16 +9,19 @@
 
 namespace stablecut {
 
-/// Findings on a receptance (m/N) with lines above 0 Hz, in words, one each: uneven lines; a band at either
-/// end where integration or noise has ruined the data; dead channels; a driving point whose imaginary part
-/// has the wrong sign (a swapped direction, another quantity), for Im H_ii <= 0 where a structure only takes
-/// energy; H_ij = -H_ji, or far from H_ji; poor coherence, with the time between two hits where its dips
-/// tell; a peak that is none of m/N. Nothing is said of fewer than 20 lines. An entry of exact zeros is a
-/// dead channel where `zeros_are_dead`, else uncoupled.
-std::vector<std::string> tap_findings(const FrequencyResponse& receptance, bool zeros_are_dead);
+struct TapReport {
+  /// In words, one each: uneven lines; a band at either end where integration or noise has ruined the data;
+  /// dead channels; a driving point whose imaginary part has the wrong sign (a swapped direction, another
+  /// quantity), for Im H_ii <= 0 where a structure only takes energy; H_ij = -H_ji, or far from H_ji; poor
+  /// coherence, with the time between two hits where its dips tell; a peak that is none of m/N.
+  std::vector<std::string> findings;
+  /// Lines on which an entry's single value stands out of its neighbours, as mains hum does: of a cubic
+  /// through four of them, and of a resonance that eight of them could show. Indices, increasing.
+  std::vector<Eigen::Index> disturbed_lines;
+};
 
-/// Lines on which an entry's single value stands out of its neighbours, as mains hum does: of a cubic through
-/// four of them, and of a resonance that eight of them could show. Indices, increasing.
-std::vector<Eigen::Index> disturbed_lines(const FrequencyResponse& receptance);
+/// Looks at a receptance (m/N) with lines above 0 Hz. An entry of exact zeros is a dead channel where
+/// `zeros_are_dead`, else uncoupled. Nothing is said of fewer than 20 lines.
+TapReport check_tap(const FrequencyResponse& receptance, bool zeros_are_dead);
 
 }  // namespace stablecut

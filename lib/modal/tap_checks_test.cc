@@ -40,9 +40,17 @@ FrequencyResponse tap(const Eigen::VectorXd& lines) {
 
 Eigen::VectorXd usual_lines() { return Eigen::VectorXd::LinSpaced(1991, 5, 1000); }
 
+std::vector<std::string> findings_on(const FrequencyResponse& frf, bool zeros_are_dead) {
+  return check_tap(frf, zeros_are_dead).findings;
+}
+
+std::vector<Eigen::Index> disturbed_on(const FrequencyResponse& frf) {
+  return check_tap(frf, true).disturbed_lines;
+}
+
 // How many findings hold the text.
 std::ptrdiff_t count(const FrequencyResponse& frf, const std::string& text, bool zeros_are_dead = true) {
-  const auto findings = tap_findings(frf, zeros_are_dead);
+  const auto findings = findings_on(frf, zeros_are_dead);
   for (const auto& finding : findings) UNSCOPED_INFO(finding);
   return std::count_if(findings.begin(), findings.end(),
                        [&](const std::string& finding) { return finding.find(text) != std::string::npos; });
@@ -59,19 +67,19 @@ FrequencyResponse changed(std::size_t entry, const Change& change) {
 }  // namespace
 
 TEST_CASE("a sound tap has no findings") {
-  CHECK(tap_findings(tap(usual_lines()), true).empty());
-  CHECK(disturbed_lines(tap(usual_lines())).empty());
+  CHECK(findings_on(tap(usual_lines()), true).empty());
+  CHECK(disturbed_on(tap(usual_lines())).empty());
   // Nor a suspended one, whose mass line rises towards 0 Hz, real and negative.
   FrequencyResponse free = tap(usual_lines());
   for (Eigen::Index i = 0; i < free.frequency_hz.size(); ++i)
     free.entries[0].h[i] -= 1 / (40 * std::pow(kTwoPi * free.frequency_hz[i], 2));
-  CHECK(tap_findings(free, true).empty());
+  CHECK(findings_on(free, true).empty());
 }
 
 TEST_CASE("lines that are not equally spaced") {
   const Eigen::VectorXd uneven = Eigen::VectorXd::LinSpaced(2000, std::log(10), std::log(1000)).array().exp();
   CHECK(count(tap(uneven), "Hz apart") == 1);
-  CHECK(tap_findings(tap(uneven), true).size() == 1);
+  CHECK(findings_on(tap(uneven), true).size() == 1);
 }
 
 TEST_CASE("drift that integration made at the low end, and noise at the high end") {
@@ -100,7 +108,7 @@ TEST_CASE("dead channels") {
               "Hxy: the same value on every line") == 1);
   const auto zero = changed(1, [&](Complex, double) { return Complex(0, 0); });
   CHECK(count(zero, "Hxy: all lines are 0") == 1);
-  CHECK(tap_findings(zero, false).empty());
+  CHECK(findings_on(zero, false).empty());
 }
 
 TEST_CASE("signs and quantities that a driving point cannot have") {
@@ -118,7 +126,7 @@ TEST_CASE("signs and quantities that a driving point cannot have") {
   FrequencyResponse both = tap(usual_lines());
   both.entries[1].h *= -1;
   both.entries[2].h *= -1;
-  CHECK(tap_findings(both, true).empty());
+  CHECK(findings_on(both, true).empty());
 }
 
 TEST_CASE("a unit that is none of m/N") {
@@ -131,7 +139,7 @@ TEST_CASE("a unit that is none of m/N") {
 TEST_CASE("poor coherence, and the time between two hits") {
   FrequencyResponse frf = tap(usual_lines());
   frf.entries[0].coherence = Eigen::VectorXd::Constant(frf.frequency_hz.size(), 0.99);
-  CHECK(tap_findings(frf, true).empty());
+  CHECK(findings_on(frf, true).empty());
   // A second hit of 90 % after 12 ms: the force nearly vanishes every 83 Hz.
   for (Eigen::Index i = 0; i < frf.frequency_hz.size(); ++i) {
     const double force = std::norm(1.0 + 0.9 * std::polar(1.0, -kTwoPi * frf.frequency_hz[i] * 0.012));
@@ -147,18 +155,18 @@ TEST_CASE("poor coherence, and the time between two hits") {
 TEST_CASE("single disturbed lines are found, resonances are not") {
   FrequencyResponse frf = tap(usual_lines());
   for (const Eigen::Index line : {90, 290, 490}) frf.entries[1].h[line] += Complex(3e-6, -5e-6);
-  CHECK(disturbed_lines(frf) == std::vector<Eigen::Index>{90, 290, 490});
+  CHECK(disturbed_on(frf) == std::vector<Eigen::Index>{90, 290, 490});
   // A mode of half the width of the spacing between lines, and one of a tenth, without noise and with.
   for (const double share : {0.5, 0.1}) {
     ModalModel sharp = tip();
     sharp.modes[0].damping_ratio = share * 0.5 / 150.1;
     sharp.modes[0].frequency_hz = 150.1;
     FrequencyResponse narrow = synthesize(sharp, usual_lines());
-    CHECK(disturbed_lines(narrow).empty());
+    CHECK(disturbed_on(narrow).empty());
     add_noise(narrow, {60.0, std::nullopt, 3});
-    CHECK(disturbed_lines(narrow).empty());
+    CHECK(disturbed_on(narrow).empty());
   }
   // Left out, they make no modes.
-  const ModalFit fit = fit_modes(without_lines(frf, disturbed_lines(frf)));
+  const ModalFit fit = fit_modes(without_lines(frf, disturbed_on(frf)));
   CHECK(fit.model.modes.size() == 3);
 }

@@ -1,0 +1,15 @@
+// Single lines that stand out of a measured curve, as mains hum does.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace stablecut {
+
+/// Lines on which the value stands out of its neighbours by more than ten deviations of the noise (`variance`
+/// [lines], of the complex value): out of a cubic through four of them, and out of a resonance that eight of
+/// them could show. Found one after the other, that which stands out most first. Indices, in no order.
+std::vector<Eigen::Index> disturbed_lines(const Eigen::VectorXd& hz, const Eigen::VectorXcd& h,
+                                          const Eigen::VectorXd& variance);
+
+}  // namespace stablecut
