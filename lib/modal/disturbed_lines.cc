@@ -14,6 +14,8 @@ using Complex = std::complex<double>;
 constexpr double kOutstanding = 10;
 constexpr Eigen::Index kReach = 12;         // lines in which neighbours are looked for
 constexpr std::size_t kNear = 2, kFar = 4;  // on each side
+constexpr Eigen::Index kCluster = 3;        // lines nearer than that belong together
+constexpr std::size_t kWidest = 2;          // lines of a hum that lies between two
 constexpr double kRounding = 1e-13;
 
 class DisturbedLines {
@@ -53,14 +55,15 @@ class DisturbedLines {
     return true;
   }
 
-  // How many deviations the value is from the predicted one, whose variance is `gain` times the neighbours'.
+  // How many deviations the value is from the predicted one, whose variance is `gain` times the neighbours':
+  // that of the noise, or of what the model leaves of them.
   template <std::size_t N>
   double deviations(Eigen::Index at, Complex predicted, double gain,
-                    const std::array<Eigen::Index, N>& others) const {
+                    const std::array<Eigen::Index, N>& others, double left = 0) const {
     double noise = 0;
     for (const Eigen::Index i : others) noise += variance_[i] / static_cast<double>(N);
-    return std::abs(h_[at] - predicted) /
-           std::max(std::sqrt((1 + gain) * noise), kRounding * std::abs(h_[at]));
+    const double deviation = std::sqrt((1 + gain) * std::max(noise, left));
+    return std::abs(h_[at] - predicted) / std::max(deviation, kRounding * std::abs(h_[at]));
   }
 
   // From the cubic through the neighbours.
@@ -93,8 +96,10 @@ class DisturbedLines {
     const Eigen::MatrixXcd scaled = design * norms.cwiseInverse().asDiagonal();
     const Eigen::MatrixXcd inverse =
         Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXcd>(scaled).pseudoInverse();
-    return deviations(at, (inverse.row(0) * values).value() / norms[0],
-                      inverse.row(0).squaredNorm() / (norms[0] * norms[0]), others);
+    const Eigen::VectorXcd solution = inverse * values;
+    const double left = (scaled * solution - values).squaredNorm() / static_cast<double>(2 * kFar - 4);
+    return deviations(at, solution[0] / norms[0], inverse.row(0).squaredNorm() / (norms[0] * norms[0]),
+                      others, left);
   }
 
   double outstanding(Eigen::Index at) const {
@@ -117,7 +122,17 @@ class DisturbedLines {
 
 std::vector<Eigen::Index> disturbed_lines(const Eigen::VectorXd& hz, const Eigen::VectorXcd& h,
                                           const Eigen::VectorXd& variance) {
-  return DisturbedLines(hz, h, variance).find();
+  std::vector<Eigen::Index> lines = DisturbedLines(hz, h, variance).find();
+  std::sort(lines.begin(), lines.end());
+  // Several lines side by side are no hum but what the models cannot follow.
+  std::vector<Eigen::Index> single;
+  for (std::size_t first = 0; first < lines.size();) {
+    std::size_t end = first + 1;
+    while (end < lines.size() && lines[end] - lines[end - 1] <= kCluster) ++end;
+    for (std::size_t i = first; end - first <= kWidest && i < end; ++i) single.push_back(lines[i]);
+    first = end;
+  }
+  return single;
 }
 
 }  // namespace stablecut
