@@ -17,3 +17,28 @@ for point in 1 2; do
       | ($m[$i][0] - $m[$j][0]) >= ([$m[$i][0] * $m[$i][1], $m[$j][0] * $m[$j][1]] | min))))'
   check_jq "point $point: says what stopped it" fit.json '.fit.stopped_by == "model error" and .fit.noise == "estimated"'
 done
+
+# Point 1 as columns, as CutPro's .frf and as universal files is one measurement, with one table of modes.
+columns=$measured/point1.txt
+sed '1s/\r*$/\tm\/N/' "$columns" >point1.frf
+fit-modes --convert --to uff "$columns" -o point1.uff
+fit-modes --convert --to uff-binary "$columns" -o point1-binary.uff
+fit-modes --convert --no-provenance "$columns" -o columns.json
+fit-modes --quiet --band 400:1500 --modes 3 --no-provenance "$columns" -o modes.json
+for file in point1.frf point1.uff point1-binary.uff; do
+  fit-modes --convert --no-provenance $file -o other.json
+  check "$file holds the same numbers" cmp columns.json other.json
+  fit-modes --quiet --band 400:1500 --modes 3 --no-provenance $file -o other.json
+  check "$file gives the same modes" cmp modes.json other.json
+done
+fit-modes --modes 2 "$columns" 2>.err >modes.json
+check "the band that integration has ruined is named" grep -q 'below 124 Hz Hxx rises towards 0 Hz' .err
+
+# Files of other programs: time records are refused, an H1 is read.
+files=$SOURCE/../shared/real/uff
+for file in Sample_UFF58_ascii Sample_UFF58b_bin binary8byte; do
+  refused 65 "$file.uff: line 8 \\(function 1, record 6\\): function type 1, a time response: expected type 4" fit-modes "$files/$file.uff"
+done
+fit-modes --convert "$files/non_ascii_header.uff" -o h1.json 2>.err
+check_jq "an H1 with bytes that are not UTF-8" h1.json '.quantity == "accelerance" and .h[0].re[5] == 3.75037 and .h[0].im[5] == 2.93363 and .frequency_hz[1] == 0.195313'
+check "without directions" grep -q 'directions 0, which are none: taken as x' .err

@@ -130,13 +130,41 @@ FrequencyResponse on_lines(const FrequencyResponse& frf, const Eigen::VectorXd& 
   return result;
 }
 
+namespace {
+
+// Zeros replaced by the mean share of |h|^2 of the nearest others on either side.
+Eigen::VectorXd without_zeros(Eigen::VectorXd variance, const Eigen::VectorXcd& h) {
+  constexpr double kLeast = 1e-300;
+  if ((variance.array() > 0).all() || (variance.array() == 0).all()) return variance;
+  const Eigen::Index lines = variance.size();
+  const auto filled = [&](Eigen::Index from, Eigen::Index step) {
+    Eigen::VectorXd shares(lines);
+    double last = -1;  // none yet
+    for (Eigen::Index i = from; i >= 0 && i < lines; i += step) {
+      if (variance[i] > 0) last = variance[i] / std::max(std::norm(h[i]), kLeast);
+      shares[i] = last;
+    }
+    return shares;
+  };
+  const Eigen::VectorXd below = filled(0, 1), above = filled(lines - 1, -1);
+  for (Eigen::Index i = 0; i < lines; ++i) {
+    if (variance[i] > 0) continue;
+    const double share = below[i] < 0 ? above[i] : above[i] < 0 ? below[i] : (below[i] + above[i]) / 2;
+    variance[i] = share * std::norm(h[i]);
+  }
+  return variance;
+}
+
+}  // namespace
+
 Eigen::VectorXd known_variance(const FrequencyResponseEntry& entry) {
-  if (entry.variance.size() > 0 || entry.coherence.size() == 0 || !entry.averages) return entry.variance;
+  if (entry.variance.size() > 0) return without_zeros(entry.variance, entry.h);
+  if (entry.coherence.size() == 0 || !entry.averages) return {};
   // Var H1 = (1 - coherence) / (2 averages coherence) |H|^2 for each part; the coherence, an estimate from
   // the same averages, takes one of them.
   const Eigen::ArrayXd coherence = entry.coherence.array().max(1e-6);
   const double averages = std::max(*entry.averages - 1, 1.0);
-  return (1 - coherence) / (coherence * averages) * entry.h.array().abs2();
+  return without_zeros((1 - coherence) / (coherence * averages) * entry.h.array().abs2(), entry.h);
 }
 
 }  // namespace stablecut

@@ -57,7 +57,9 @@ FrequencyResponse on_lines(const FrequencyResponse& frf, const Eigen::VectorXd& 
 bool same_values(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
 /// Variance of an entry's complex values [lines], in its quantity's unit squared: given, or by its coherence
-/// and averages (Bendat and Piersol); empty when neither is known.
+/// and averages (Bendat and Piersol); empty when neither is known. A 0 (a coherence rounded to 1) where
+/// others have a variance is no certainty: the share of |h|^2 of the nearest lines that have one is taken
+/// instead.
 Eigen::VectorXd known_variance(const FrequencyResponseEntry& entry);
 
 }  // namespace stablecut

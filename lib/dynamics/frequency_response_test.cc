@@ -84,11 +84,19 @@ TEST_CASE("variance: given, by coherence, or unknown") {
   CHECK(known_variance(entry).size() == 0);
   entry.coherence = Eigen::Vector2d(1, 0.8);
   entry.averages = 5;
-  // (1 - 0.8) / (2 * 4 * 0.8) |H|^2 for each of the two parts.
-  CHECK(known_variance(entry)[0] == 0);
-  CHECK(known_variance(entry)[1] == Approx(2 * 0.2 / 6.4 * 25));
+  // (1 - 0.8) / (2 * 4 * 0.8) |H|^2 for each of the two parts; a coherence of 1 is one that was rounded.
+  const double expected = 2 * 0.2 / 6.4 * 25;
+  CHECK(known_variance(entry)[0] == Approx(expected));
+  CHECK(known_variance(entry)[1] == Approx(expected));
+  entry.averages.reset();
+  CHECK(known_variance(entry).size() == 0);
   entry.variance = Eigen::Vector2d(7, 8);
   CHECK(known_variance(entry) == Eigen::Vector2d(7, 8));
+  entry.h[1] = 10;
+  entry.variance = Eigen::Vector2d(5, 0);
+  CHECK(known_variance(entry) == Eigen::Vector2d(5, 20));
+  entry.variance = Eigen::Vector2d(0, 0);
+  CHECK(known_variance(entry) == Eigen::Vector2d(0, 0));
 }
 
 TEST_CASE("without some lines") {
