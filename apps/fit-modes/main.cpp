@@ -11,10 +11,10 @@
 #include "cli/tool.h"
 #include "document/error.h"
 #include "document/frf.h"
-#include "document/frf_import.h"
 #include "document/frf_uff.h"
 #include "document/modal_table.h"
 #include "dynamics/synthesis.h"
+#include "measurement.h"
 #include "modal/fit.h"
 #include "modal/tap_checks.h"
 #include "report.h"
@@ -35,43 +35,7 @@ class FitModes : public cli::Tool {
 
  private:
   void setup(CLI::App& app) override {
-    // Reading a measurement.
-    cli::add_choice_option(app, "--from", from_, "json|uff|csv|frf",
-                           "Form of the input (default: by content)");
-    cli::add_choice_option(app, "--quantity", quantity_, "receptance|mobility|accelerance",
-                           "What a file holds that does not say so (default of columns: receptance)");
-    app.add_option_function<std::string>(
-           "--unit",
-           [this](const std::string& text) {
-             choice_.unit = frf_unit(text);
-             if (!choice_.unit)
-               throw CLI::ValidationError(
-                   "--unit", text + ": expected a unit of a response over a force, as um/N or g/lbf");
-           },
-           "Unit of the file's numbers, as um/N or (m/s^2)/N; wins over what the file says")
-        ->type_name("UNIT");
-    cli::add_repeated_option(
-        app, "--entry", "XY=FILE",
-        "One entry from each of several files: response, force, and the file; -xy turns a sign",
-        [this](const std::string& text) { take_entry(text); });
-    app.add_option_function<std::string>(
-           "--functions",
-           [this](const std::string& text) {
-             const auto list = parse_index_list(text);
-             if (!list) throw CLI::ValidationError("--functions", text + ": expected a list, as 1-4,7");
-             choice_.functions = *list;
-           },
-           "Only these functions of a universal file, as 1-4,7")
-        ->type_name("LIST");
-    cli::add_integer_option(app, "--node", choice_.node, std::numeric_limits<int>::min(),
-                            "Only what was measured at this node of a universal file");
-    cli::add_number_option(app, "--averages", choice_.averages, "Averages behind the file's coherences",
-                           "a number, at least 1", [](double value) { return value >= 1; });
-    cli::add_band_option(app, "--band", band_, "Use only the lines in this band, Hz");
-    read_options_ = {app.get_option("--from"),     app.get_option("--quantity"),  app.get_option("--unit"),
-                     app.get_option("--entry"),    app.get_option("--functions"), app.get_option("--node"),
-                     app.get_option("--averages"), app.get_option("--band")};
-
+    measurement_.declare(app);
     // Fitting it.
     app.add_option_function<std::string>(
            "--window-decay", [this](const std::string& text) { take_window_decay(text); },
@@ -114,16 +78,6 @@ class FitModes : public cli::Tool {
                      "Synthesize: leave the noise's variance out of the document")};
   }
 
-  void take_entry(const std::string& text) {
-    const auto equals = text.find('=');
-    auto part = equals == std::string::npos ? std::nullopt : frf_part_named(text.substr(0, equals));
-    if (!part || equals + 1 == text.size())
-      throw CLI::ValidationError(
-          "--entry", text + ": expected DIRECTIONS=FILE, as xy=tap.csv (response x, force along y)");
-    parts_.push_back(*part);
-    part_paths_.push_back(text.substr(equals + 1));
-  }
-
   void take_window_decay(const std::string& text) {
     const bool is_time = text.ends_with('s');
     const auto number = parse_number(std::string_view(text).substr(0, text.size() - (is_time ? 1 : 0)));
@@ -143,7 +97,7 @@ class FitModes : public cli::Tool {
 
   void run() override {
     if (synthesize_) {
-      refuse(read_options_, "without --synthesize");
+      refuse(measurement_.declared(), "without --synthesize");
       refuse(fit_options_, "without --synthesize");
       if (convert_) throw cli::Failure(cli::ExitStatus::kUsage, "--convert: expected without --synthesize");
       synthesize_table();
@@ -205,7 +159,7 @@ class FitModes : public cli::Tool {
 
   void fit() {
     const FrequencyResponse measured = read_receptance();
-    const TapReport report = check_tap(measured, !form_is_json_);
+    const TapReport report = check_tap(measured, zeros_are_dead_);
     for (const std::string& text : report.findings) warn(input_name_ + ": " + text);
     const FrequencyResponse used = without_disturbed_lines(measured, report.disturbed_lines);
     const ModalFit result = fit_measured(used);
@@ -280,58 +234,14 @@ class FitModes : public cli::Tool {
     }
   }
 
-  // Options that the input's form has no use for are a mistake.
-  void check_form(const cli::Input& input) {
-    const FrfForm form = frf_form_of(input, choice_);
-    if (form != FrfForm::kUniversalFile && (!choice_.functions.empty() || choice_.node))
-      throw cli::Failure(cli::ExitStatus::kUsage,
-                         input.source.name + ": expected a universal file with --functions and --node");
-    form_is_json_ = form == FrfForm::kJson;
-    if (!form_is_json_) return;
-    if (choice_.unit || choice_.averages)
-      throw cli::Failure(
-          cli::ExitStatus::kUsage,
-          input.source.name +
-              ": a frf document says its units and averages itself: expected no --unit, no --averages");
-    if (!choice_.quantity) return;
-    const Quantity told = frf_from_json(input.document, input.source).quantity;
-    if (told != *choice_.quantity) {
-      throw cli::Failure(cli::ExitStatus::kUsage, "--quantity: " + quantity_ + ": expected " +
-                                                      quantity_name(told) + ", as the document says");
-    }
-  }
-
-  // What the input, or the files of --entry, hold in the band, in the quantity that was measured.
   FrequencyResponse read_measurement() {
-    choice_.form = frf_form_from_name(from_);
-    if (!quantity_.empty()) choice_.quantity = quantity_from_name(quantity_);
-    const auto form = from_.empty()     ? cli::InputForm::kByContent
-                      : from_ == "json" ? cli::InputForm::kJson
-                                        : cli::InputForm::kText;
-    FrequencyResponse frf;
-    std::vector<std::string> remarks;
-    if (parts_.empty()) {
-      const cli::Input input = read_main_input(form);
-      input_name_ = input.source.name;
-      check_form(input);
-      frf = import_frf(input, choice_, remarks);
-      for (std::string& remark : remarks) remark = input_name_ + ": " + remark;
-    } else {
-      if (main_input() != "-")
-        throw cli::Failure(cli::ExitStatus::kUsage, main_input() + ": expected no other input with --entry");
-      for (std::size_t i = 0; i < parts_.size(); ++i) {
-        parts_[i].input = read_input(part_paths_[i], form);
-        check_form(parts_[i].input);
-      }
-      input_name_ = parts_[0].input.source.name;
-      frf = import_frf_parts(parts_, choice_, remarks);
-    }
-    for (const std::string& remark : remarks) warn(remark);
-    if (!band_) return frf;
-    frf = within_band(frf, band_->from, band_->to);
-    if (frf.frequency_hz.size() == 0)
-      throw DataError(input_name_, "", "", "no lines in the band: expected some in --band");
-    return frf;
+    Measurement measured = measurement_.read(
+        main_input(),
+        [this](const std::string& path, cli::InputForm form) { return read_input(path, form); });
+    for (const std::string& remark : measured.remarks) warn(remark);
+    input_name_ = measured.name;
+    zeros_are_dead_ = !measured.is_document;
+    return std::move(measured.frf);
   }
 
   // The measurement as a receptance, without a line at 0 Hz, and what it shows about itself.
@@ -355,16 +265,14 @@ class FitModes : public cli::Tool {
     return frf;
   }
 
-  std::string from_, quantity_, to_, model_, fitted_path_, stabilization_path_, input_name_;
-  FrfChoice choice_;
-  std::vector<FrfPart> parts_;
-  std::vector<std::string> part_paths_;
-  std::optional<Range> band_, synthesize_;
+  MeasurementOptions measurement_;
+  std::string to_, model_, fitted_path_, stabilization_path_, input_name_;
+  std::optional<Range> synthesize_;
   std::optional<int> modes_, seed_;
   std::optional<double> noise_db_, noise_floor_db_;
   double window_decay_per_s_ = 0;
-  bool no_variance_ = false, convert_ = false, form_is_json_ = false;
-  std::vector<CLI::Option*> read_options_, fit_options_, noise_options_;
+  bool no_variance_ = false, convert_ = false, zeros_are_dead_ = true;
+  std::vector<CLI::Option*> fit_options_, noise_options_;
 };
 
 }  // namespace

@@ -2,26 +2,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
-#include <map>
 
 #include "base/range.h"
 #include "base/units.h"
 #include "document/error.h"
+#include "document/frf_column_name.h"
+#include "document/plain_text.h"
 #include "document/table_text.h"
 
 namespace stablecut {
 namespace {
-
-enum class Part { kFrequency, kReal, kImaginary, kMagnitude, kDecibel, kPhase, kCoherence };
-
-struct ColumnName {
-  Part part = Part::kReal;
-  std::string response, reference;  // empty: not told
-  double sign = 1;
-  std::string unit;  // as written, without brackets
-};
 
 constexpr std::size_t kNoColumn = static_cast<std::size_t>(-1);
 
@@ -42,132 +33,6 @@ struct ColumnPlan {
   std::vector<std::size_t> more_frequencies;  // repeated for each entry
   std::vector<EntryColumns> entries;
 };
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-bool is_direction(char c) { return c == 'x' || c == 'y' || c == 'z'; }
-
-std::optional<Part> part_named(const std::string& word) {
-  static const std::map<std::string, Part> kWords = {{"f", Part::kFrequency},
-                                                     {"freq", Part::kFrequency},
-                                                     {"frequency", Part::kFrequency},
-                                                     {"hz", Part::kFrequency},
-                                                     {"khz", Part::kFrequency},
-                                                     {"omega", Part::kFrequency},
-                                                     {"re", Part::kReal},
-                                                     {"real", Part::kReal},
-                                                     {"im", Part::kImaginary},
-                                                     {"imag", Part::kImaginary},
-                                                     {"imaginary", Part::kImaginary},
-                                                     {"mag", Part::kMagnitude},
-                                                     {"magnitude", Part::kMagnitude},
-                                                     {"abs", Part::kMagnitude},
-                                                     {"amp", Part::kMagnitude},
-                                                     {"ampl", Part::kMagnitude},
-                                                     {"amplitude", Part::kMagnitude},
-                                                     {"modulus", Part::kMagnitude},
-                                                     {"gain", Part::kMagnitude},
-                                                     {"phase", Part::kPhase},
-                                                     {"ph", Part::kPhase},
-                                                     {"phi", Part::kPhase},
-                                                     {"arg", Part::kPhase},
-                                                     {"angle", Part::kPhase},
-                                                     {"db", Part::kDecibel},
-                                                     {"coh", Part::kCoherence},
-                                                     {"coherence", Part::kCoherence}};
-  const auto found = kWords.find(word);
-  return found == kWords.end() ? std::nullopt : std::optional(found->second);
-}
-
-// A unit, known or not; neither a part nor directions, as in Re(Hxx) or H(x/y).
-bool looks_like_unit(const std::string& text) {
-  const std::string low = lower(text);
-  for (const char* word : {"db", "deg", "degrees", "rad", "radians", "\xC2\xB0", "\xB0", "-"}) {
-    if (low == word) return true;
-  }
-  const bool quotient = low.find('/') != std::string::npos && std::any_of(low.begin(), low.end(), [](char c) {
-                          return std::isalpha(static_cast<unsigned char>(c)) && !is_direction(c);
-                        });
-  return quotient || physical_unit(text) || frequency_unit(text);
-}
-
-// `Hxy (imag) [m/N]`: the directions, the part, the unit. Nothing when the name does not tell the part.
-std::optional<ColumnName> column_name(const std::string& field) {
-  ColumnName name;
-  std::string text = lower(field);
-  // A unit stands in the last brackets, unless these hold a part or directions: Re(Hxx).
-  const auto open = text.find_last_of("[(");
-  if (open != std::string::npos) {
-    const auto close = text.find_first_of("])", open);
-    const std::string inside = field.substr(open + 1, close == std::string::npos ? close : close - open - 1);
-    // `(m/s^2)/N` in brackets of the other kind, or with what follows them.
-    for (const char* outer : {"[", "("}) {
-      const auto from = field.find(outer);
-      if (from == std::string::npos || from == open) continue;
-      std::string whole = field.substr(from + 1);
-      if (const auto end = whole.find_last_of(*outer == '[' ? ']' : ')'); end != std::string::npos)
-        whole.erase(end);
-      if (frf_unit(whole)) {
-        name.unit = whole;
-        text.erase(from);
-        break;
-      }
-    }
-    if (name.unit.empty() && looks_like_unit(inside)) {
-      name.unit = inside;
-      text = text.substr(0, open) + (close == std::string::npos ? "" : " " + text.substr(close + 1));
-    }
-  }
-  if (name.unit.empty()) {
-    // A unit without brackets, as in `Real um/N`.
-    const std::string last = field.substr(field.find_last_of(" _") + 1);
-    if (frf_unit(last) || frequency_unit(last)) name.unit = last;
-  }
-  std::optional<Part> part;
-  std::string directions;
-  double sign = 1;
-  for (std::size_t i = 0; i < text.size();) {
-    if (!std::isalnum(static_cast<unsigned char>(text[i]))) {
-      // A minus before a direction turns its sign, unless it stands between two letters.
-      const bool leads = i == 0 || !std::isalnum(static_cast<unsigned char>(text[i - 1]));
-      if (text[i] == '-' && leads && i + 1 < text.size() && is_direction(text[i + 1])) sign = -sign;
-      ++i;
-      continue;
-    }
-    std::size_t end = i;
-    while (end < text.size() && std::isalnum(static_cast<unsigned char>(text[end]))) ++end;
-    std::string word = text.substr(i, end - i);
-    i = end;
-    if (const auto told = part_named(word)) {
-      const bool only_marks_unit = told == Part::kDecibel && part == Part::kMagnitude;
-      if (!part || only_marks_unit || *part == Part::kFrequency) part = told;
-      continue;
-    }
-    if (word == "deg" || word == "rad" || word == "degrees" || word == "radians") {
-      name.unit = word;
-      continue;
-    }
-    if (word.size() == 3 && (word[0] == 'h' || word[0] == 'g')) word.erase(0, 1);
-    const bool all = word.size() <= 2 && std::all_of(word.begin(), word.end(), is_direction);
-    if (all) directions += word;
-  }
-  if (lower(name.unit) == "db" && part == Part::kMagnitude) part = Part::kDecibel;
-  if (!part && frequency_unit(name.unit)) part = Part::kFrequency;
-  if (!part) return std::nullopt;
-  if (part == Part::kFrequency && (text.starts_with("omega") || lower(name.unit) == "rad"))
-    name.unit = "rad/s";
-  name.part = *part;
-  if (directions.size() == 2) {
-    name.response = directions.substr(0, 1);
-    name.reference = directions.substr(1, 1);
-    name.sign = sign;
-  }
-  return name;
-}
 
 bool is_number(const std::string& field) { return parse_number(field).has_value(); }
 
@@ -262,7 +127,7 @@ class ColumnReader {
       const auto known =
           std::count_if(found.begin(), found.end(), [](const auto& n) { return n.has_value(); });
       const bool beyond_frequency = std::any_of(
-          found.begin(), found.end(), [](const auto& n) { return n && n->part != Part::kFrequency; });
+          found.begin(), found.end(), [](const auto& n) { return n && n->part != ColumnPart::kFrequency; });
       if (known == 0 || !beyond_frequency || found.size() < 3) continue;
       names = std::move(found);
       names_row = i - 1;
@@ -300,7 +165,7 @@ class ColumnReader {
     for (std::size_t i = 0; i < std::min(names.size(), width); ++i) {
       if (!names[i]) continue;
       const ColumnName& name = *names[i];
-      if (name.part == Part::kFrequency) {
+      if (name.part == ColumnPart::kFrequency) {
         if (has_frequency) {
           plan_.more_frequencies.push_back(i);
           continue;
@@ -316,13 +181,13 @@ class ColumnReader {
       }
       EntryColumns& entry = entry_of(name);
       entry.sign = name.sign;
-      if (name.part == Part::kCoherence) {
+      if (name.part == ColumnPart::kCoherence) {
         entry.coherence = i;
         continue;
       }
-      const bool second = name.part == Part::kImaginary || name.part == Part::kPhase;
+      const bool second = name.part == ColumnPart::kImaginary || name.part == ColumnPart::kPhase;
       std::size_t& column = entry.columns[second ? 1 : 0];
-      const bool polar = name.part != Part::kReal && name.part != Part::kImaginary;
+      const bool polar = name.part != ColumnPart::kReal && name.part != ColumnPart::kImaginary;
       const bool has_other = entry.columns[second ? 0 : 1] != kNoColumn;
       if (has_other && polar != entry.polar) {
         // Both forms of one entry: the real and imaginary parts are enough.
@@ -335,9 +200,9 @@ class ColumnReader {
       if (column != kNoColumn) entry.columns = {kNoColumn, kNoColumn};
       entry.polar = polar;
       entry.columns[second ? 1 : 0] = i;
-      entry.decibel = name.part == Part::kDecibel || (second && entry.decibel);
+      entry.decibel = name.part == ColumnPart::kDecibel || (second && entry.decibel);
       const std::string unit = lower(name.unit);
-      if (name.part == Part::kPhase) {
+      if (name.part == ColumnPart::kPhase) {
         if (unit.starts_with("rad")) entry.radians = true;
         if (unit.starts_with("deg") || unit == "\xC2\xB0" || unit == "\xB0") entry.radians = false;
       } else if (const auto told = frf_unit(name.unit)) {

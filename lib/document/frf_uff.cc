@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/range.h"
 #include "document/error.h"
-#include "document/table_text.h"
+#include "document/plain_text.h"
 
 namespace stablecut {
 namespace {
@@ -48,12 +48,6 @@ struct Meaning {
   Quantity quantity = Quantity::kReceptance;
   double to_si = 1;
 };
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 bool mentions(const std::string& text, std::initializer_list<const char*> words) {
   const std::string low = lower(text);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "document/frf_unit.h"
-#include "document/universal_file.h"
+#include "document/universal_file_writer.h"
 #include "dynamics/frequency_response.h"
 
 namespace stablecut {

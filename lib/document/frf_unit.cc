@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/units.h"
-#include "document/table_text.h"
+#include "document/plain_text.h"
 
 namespace stablecut {
 namespace {
@@ -52,12 +52,6 @@ constexpr std::array kNames = {
     NamedUnit{"kp", force(kGravity)},
     NamedUnit{"kg", {1, -1, 2, 1}},
 };
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 // Recursive descent over products and quotients, from left to right; blanks multiply.
 class UnitParser {

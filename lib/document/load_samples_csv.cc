@@ -7,6 +7,7 @@
 #include "base/units.h"
 #include "document/error.h"
 #include "document/load_samples.h"
+#include "document/plain_text.h"
 #include "document/table_text.h"
 
 namespace stablecut {
@@ -30,11 +31,6 @@ struct Column {
   int component;
   double to_si;
 };
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
 
 // "dx [um]", "dx (um)", "dx_um", "Dx/um" -> name "dx", unit "um"; punctuation inside the name is dropped.
 std::pair<std::string, std::string> name_and_unit(std::string header, const std::vector<std::string>& units) {

@@ -1,23 +1,15 @@
 #include "document/table_text.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <utility>
 
 #include "base/range.h"
 #include "document/error.h"
+#include "document/plain_text.h"
 
 namespace stablecut {
 namespace {
-
-constexpr const char* kBlanks = " \t\r\v\f";
-
-std::string_view trimmed(std::string_view text) {
-  const auto from = text.find_first_not_of(kBlanks);
-  if (from == std::string_view::npos) return {};
-  return text.substr(from, text.find_last_not_of(kBlanks) - from + 1);
-}
 
 std::string_view unquoted(std::string_view field) {
   field = trimmed(field);
@@ -133,29 +125,6 @@ double table_number(const Source& source, const TableRow& row, std::size_t colum
   const auto value = parse_number(row.fields[column]);
   if (!value) throw DataError(source.name, line_place(row.line), '"' + row.fields[column] + '"', wanted);
   return *value;
-}
-
-std::string plain_signs(std::string_view text) {
-  static constexpr std::array<std::array<std::string_view, 2>, 7> kSigns = {{{"\xC2\xB5", "u"},
-                                                                             {"\xCE\xBC", "u"},
-                                                                             {"\xB5", "u"},
-                                                                             {"\xC2\xB2", "^2"},
-                                                                             {"\xB2", "^2"},
-                                                                             {"\xC2\xB7", "*"},
-                                                                             {"\xB7", "*"}}};
-  std::string result;
-  while (!text.empty()) {
-    const auto sign = std::find_if(kSigns.begin(), kSigns.end(),
-                                   [&](const auto& candidate) { return text.starts_with(candidate[0]); });
-    if (sign == kSigns.end()) {
-      result += text.front();
-      text.remove_prefix(1);
-    } else {
-      result += (*sign)[1];
-      text.remove_prefix((*sign)[0].size());
-    }
-  }
-  return result;
 }
 
 }  // namespace stablecut

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "document/json_text.h"
@@ -26,8 +25,5 @@ bool is_header(const TableRow& row);
 
 /// Field `column` as a finite number. Throws DataError naming line, column and what was expected.
 double table_number(const Source& source, const TableRow& row, std::size_t column, const char* expected);
-
-/// Signs of UTF-8 and Latin-1 in plain letters: a micro sign as u, a raised 2 as ^2, a middle dot as *.
-std::string plain_signs(std::string_view text);
 
 }  // namespace stablecut

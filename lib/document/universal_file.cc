@@ -2,29 +2,19 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
-#include <cstdint>
-#include <cstdio>
 #include <cstring>
 #include <limits>
 
-#include "base/number_text.h"
 #include "base/range.h"
 #include "document/error.h"
+#include "document/fortran_number.h"
+#include "document/plain_text.h"
 
 namespace stablecut {
 namespace {
 
-constexpr const char* kBlanks = " \t\r\v\f";
-constexpr int kHeaderRecords = 11;
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
-
-std::string_view trimmed(std::string_view text) {
-  const auto from = text.find_first_not_of(kBlanks);
-  if (from == std::string_view::npos) return {};
-  return text.substr(from, text.find_last_not_of(kBlanks) - from + 1);
-}
 
 std::vector<std::string_view> words_of(std::string_view line) {
   std::vector<std::string_view> words;
@@ -50,89 +40,8 @@ std::optional<int> field_integer(std::string_view field) {
 }
 
 std::string name_of(std::string_view field) {
-  field = trimmed(field);
-  std::string upper(field);
-  std::transform(upper.begin(), upper.end(), upper.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return std::string(upper == "NONE" ? std::string_view() : field);
-}
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
-bool is_exponent_letter(char c) {
-  return c == 'e' || c == 'E' || c == 'd' || c == 'D' || c == 'q' || c == 'Q';
-}
-
-// One number at the front of the text, which is cut off: as Fortran writes them, with D for E, without any
-// letter before an exponent of three digits, and without a blank before a minus sign. Words for what is no
-// finite number (NaN, Inf, ****) give a NaN; nothing for another text.
-std::optional<double> take_number(std::string_view& text) {
-  std::size_t at = 0;
-  const auto peek = [&](std::size_t i) { return i < text.size() ? text[i] : '\0'; };
-  if (peek(at) == '+' || peek(at) == '-') ++at;
-  const std::size_t digits_from = at;
-  while (is_digit(peek(at))) ++at;
-  if (peek(at) == '.') ++at;
-  while (is_digit(peek(at))) ++at;
-  const std::size_t mantissa_end = at;
-  std::size_t exponent_from = 0;  // of its sign or first digit; 0 for none
-  const auto sign_and_digits = [&](std::size_t i) {
-    return is_digit(peek(i)) || ((peek(i) == '+' || peek(i) == '-') && is_digit(peek(i + 1)));
-  };
-  if (is_exponent_letter(peek(at)) && sign_and_digits(at + 1)) {
-    exponent_from = at + 1;
-  } else if ((peek(at) == '+' || peek(at) == '-') && is_digit(peek(at + 1)) && is_digit(peek(at + 2)) &&
-             is_digit(peek(at + 3)) && !is_digit(peek(at + 4)) && peek(at + 4) != '.') {
-    exponent_from = at;
-  }
-  const bool has_digits =
-      mantissa_end > digits_from && !(mantissa_end == digits_from + 1 && text[digits_from] == '.');
-  if (!has_digits) {
-    // A whole word that is no number.
-    std::size_t end = 0;
-    while (end < text.size() && !is_blank(text[end])) ++end;
-    std::string word(text.substr(0, end));
-    std::erase_if(word, [](char c) { return c == '+' || c == '-'; });
-    std::transform(word.begin(), word.end(), word.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const bool stars = !word.empty() && word.find_first_not_of('*') == std::string::npos;
-    if (!stars && !word.starts_with("nan") && !word.starts_with("inf") && !word.starts_with("1.#") &&
-        !word.starts_with("-1.#")) {
-      return std::nullopt;
-    }
-    text.remove_prefix(end);
-    return kNotANumber;
-  }
-  if (peek(at) == '#') {  // 1.#QNAN of old run-time libraries
-    while (at < text.size() && !is_blank(text[at])) ++at;
-    text.remove_prefix(at);
-    return kNotANumber;
-  }
-  std::size_t end = mantissa_end;
-  if (exponent_from > 0) {
-    end = exponent_from + (is_digit(text[exponent_from]) ? 0 : 1);
-    while (is_digit(peek(end))) ++end;
-  }
-  double value = 0;
-  const std::size_t from = text.front() == '+' ? 1 : 0;
-  const bool plain = exponent_from == 0 || ((peek(mantissa_end) == 'e' || peek(mantissa_end) == 'E'));
-  std::from_chars_result result{};
-  if (plain) {
-    result = std::from_chars(text.data() + from, text.data() + end, value);
-  } else {
-    std::string rewritten(text.substr(from, mantissa_end - from));
-    rewritten += 'e';
-    rewritten += text.substr(exponent_from, end - exponent_from);
-    result = std::from_chars(rewritten.data(), rewritten.data() + rewritten.size(), value);
-  }
-  if (result.ec == std::errc::result_out_of_range) {
-    // Below the least double is 0; above the largest is no number.
-    value = exponent_from > 0 && text[exponent_from] == '-' ? 0 : kNotANumber;
-  } else if (result.ec != std::errc()) {
-    return std::nullopt;
-  }
-  text.remove_prefix(end);
-  return value;
+  const std::string name(trimmed(field));
+  return lower(name) == "none" ? "" : name;
 }
 
 // The text line by line.
@@ -175,7 +84,7 @@ struct DatasetHeader {
   bool binary = false;
   int byte_order = 1;    // 1 little endian, 2 big
   int float_format = 2;  // 1 VAX, 2 IEEE 754, 3 IBM
-  int header_lines = kHeaderRecords;
+  int header_lines = kUniversalHeaderRecords;
   std::optional<std::size_t> bytes;
 };
 
@@ -192,7 +101,7 @@ std::optional<DatasetHeader> dataset_header(std::string_view line) {
   const auto word = [&](std::size_t i) { return i < words.size() ? parse_integer(words[i]) : std::nullopt; };
   header.byte_order = word(1).value_or(1);
   header.float_format = word(2).value_or(2);
-  header.header_lines = word(3).value_or(kHeaderRecords);
+  header.header_lines = word(3).value_or(kUniversalHeaderRecords);
   if (const auto bytes = word(4); bytes && *bytes > 0) header.bytes = static_cast<std::size_t>(*bytes);
   return header;
 }
@@ -227,8 +136,8 @@ class DatasetReader {
                       "byte order " + std::to_string(header_.byte_order),
                       "expected 1 (little endian) or 2 (big), in function " + std::to_string(number()));
     }
-    for (int record = 1; record <= kHeaderRecords; ++record) read_record(record, next_line(record));
-    for (int line = kHeaderRecords; header_.binary && line < header_.header_lines; ++line)
+    for (int record = 1; record <= kUniversalHeaderRecords; ++record) read_record(record, next_line(record));
+    for (int line = kUniversalHeaderRecords; header_.binary && line < header_.header_lines; ++line)
       next_line(line + 1);
     header_.binary ? read_binary() : read_text();
     return std::move(function_);
@@ -510,47 +419,6 @@ UniversalUnits read_units(const Source& source, LineReader& lines) {
   return units;
 }
 
-// As many digits as twelve characters hold, right-aligned in thirteen columns.
-std::string in_13_columns(double value) {
-  std::string text;
-  for (int digits = 12; digits >= 5; --digits) {
-    text = printed(("%." + std::to_string(digits) + "g").c_str(), value);
-    if (text.find_first_of(".e") == std::string::npos) text += '.';
-    if (text.find('e') != std::string::npos && text.find('.') == std::string::npos)
-      text.insert(text.find('e'), ".");
-    if (text.size() <= 12) break;
-  }
-  return std::string(text.size() < 13 ? 13 - text.size() : 0, ' ') + text;
-}
-
-double read_back(const std::string& text) {
-  std::string_view rest = trimmed(text);
-  return take_number(rest).value_or(kNotANumber);
-}
-
-std::string axis_record(const UniversalAxis& axis, int length_exponent, int force_exponent) {
-  char text[96];
-  std::snprintf(text, sizeof text, "%10d%5d%5d%5d %-20.20s %-20.20s\n", axis.data_type, length_exponent,
-                force_exponent, 0, axis.label.empty() ? "NONE" : axis.label.c_str(),
-                axis.unit.empty() ? "NONE" : axis.unit.c_str());
-  return text;
-}
-
-std::string place_field(const UniversalPlace& place) {
-  char text[40];
-  std::snprintf(text, sizeof text, " %-10.10s%10d%4d", place.entity.empty() ? "NONE" : place.entity.c_str(),
-                place.node, place.direction);
-  return text;
-}
-
-void append_double(std::string& bytes, double value) {
-  auto bits = std::bit_cast<std::uint64_t>(value);
-  for (int i = 0; i < 8; ++i) {
-    bytes += static_cast<char>(bits & 0xFF);
-    bits >>= 8;
-  }
-}
-
 }  // namespace
 
 std::string UniversalFunction::place(int record) const {
@@ -604,60 +472,6 @@ std::vector<UniversalFunction> read_universal_file(const Source& source) {
                     "expected a universal file with functions, dataset 58");
   }
   return functions;
-}
-
-std::string universal_si_units() {
-  return "    -1\n   164\n         1SI                           2\n"
-         "  1.00000000000000000D+00  1.00000000000000000D+00  1.00000000000000000D+00\n"
-         "  2.73160000000000025D+02\n    -1\n";
-}
-
-std::string universal_function(const UniversalFunction& function, UniversalForm form) {
-  const bool binary = form == UniversalForm::kBinary;
-  const Eigen::VectorXd& abscissa = function.abscissa;
-  const Eigen::Index count = abscissa.size();
-  const double first = abscissa[0],
-               step = count > 1 ? (abscissa[count - 1] - first) / static_cast<double>(count - 1) : 0;
-  const std::string first_text = in_13_columns(first), step_text = in_13_columns(step);
-  const double first_read = read_back(first_text), step_read = read_back(step_text);
-  double farthest = 0;
-  for (Eigen::Index i = 0; i < count; ++i)
-    farthest = std::max(farthest, std::abs(first_read + static_cast<double>(i) * step_read - abscissa[i]));
-  const double allowed = binary ? 0 : 1e-9 * std::max(std::abs(first), std::abs(abscissa[count - 1]));
-  const bool even = farthest <= allowed;
-
-  std::string values;
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const std::array<double, 2> parts = {function.values[i].real(), function.values[i].imag()};
-    if (binary) {
-      if (!even) append_double(values, abscissa[i]);
-      for (const double part : parts) append_double(values, part);
-      continue;
-    }
-    if (!even) values += in_13_columns(abscissa[i]);
-    for (const double part : parts) values += printed("%20.12E", part);
-    // Even lines: two values a line, 4E20.12; uneven: E13.5,2E20.12.
-    if (!even || i % 2 == 1 || i + 1 == count) values += '\n';
-  }
-
-  std::string text = "    -1\n";
-  char line[128];
-  if (binary) {
-    std::snprintf(line, sizeof line, "%6db%6d%6d%12d%12zu%6d%6d%12d%12d\n", 58, 1, 2, kHeaderRecords,
-                  values.size(), 0, 0, 0, 0);
-    text += line;
-  } else {
-    text += "    58\n";
-  }
-  for (const std::string& id : function.id) text += (id.empty() ? "NONE" : id.substr(0, 80)) + "\n";
-  std::snprintf(line, sizeof line, "%5d%10d%5d%10d", function.type, 0, 0, 0);
-  text += line + place_field(function.response) + place_field(function.reference) + "\n";
-  std::snprintf(line, sizeof line, "%10d%10ld%10d", 6, static_cast<long>(count), even ? 1 : 0);
-  text +=
-      line + (even ? first_text + step_text : in_13_columns(0) + in_13_columns(0)) + in_13_columns(0) + "\n";
-  text += axis_record(function.abscissa_axis, 0, 0) + axis_record(function.ordinate, 1, 0) +
-          axis_record(function.denominator, 0, 1) + axis_record({}, 0, 0);
-  return text + values + "    -1\n";
 }
 
 }  // namespace stablecut

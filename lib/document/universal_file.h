@@ -13,6 +13,9 @@
 
 namespace stablecut {
 
+/// Records before the values.
+inline constexpr int kUniversalHeaderRecords = 11;
+
 /// Records 8 to 11: what an axis holds.
 struct UniversalAxis {
   int data_type = 0;  ///< 0 unknown, 1 general, 8 displacement, 11 velocity, 12 acceleration, 13 force, 17
@@ -62,17 +65,5 @@ std::vector<UniversalFunction> read_universal_file(const Source& source);
 
 /// True for a text that has a line -1 near its beginning, and a dataset's number below it.
 bool looks_like_universal_file(std::string_view text);
-
-/// How numbers are written.
-enum class UniversalForm {
-  kText,   ///< dataset 58: 13 digits a value, 11 for the first abscissa and the step
-  kBinary  ///< dataset 58b: IEEE 754 doubles, little endian
-};
-
-/// Dataset 164 for SI.
-std::string universal_si_units();
-/// One dataset 58 or 58b with complex values in double precision. Equally spaced lines are written as such
-/// where that gives the same lines again (of text: to its digits).
-std::string universal_function(const UniversalFunction& function, UniversalForm form);
 
 }  // namespace stablecut

@@ -1,0 +1,111 @@
+#include "measurement.h"
+
+#include <limits>
+#include <utility>
+
+#include "cli/exit_status.h"
+#include "document/error.h"
+#include "document/frf.h"
+
+namespace stablecut {
+
+void MeasurementOptions::declare(CLI::App& app) {
+  cli::add_choice_option(app, "--from", from_, "json|uff|csv|frf", "Form of the input (default: by content)");
+  cli::add_choice_option(app, "--quantity", quantity_, "receptance|mobility|accelerance",
+                         "What a file holds that does not say so (default of columns: receptance)");
+  app.add_option_function<std::string>(
+         "--unit",
+         [this](const std::string& text) {
+           choice_.unit = frf_unit(text);
+           if (!choice_.unit)
+             throw CLI::ValidationError(
+                 "--unit", text + ": expected a unit of a response over a force, as um/N or g/lbf");
+         },
+         "Unit of the file's numbers, as um/N or (m/s^2)/N; wins over what the file says")
+      ->type_name("UNIT");
+  cli::add_repeated_option(
+      app, "--entry", "XY=FILE",
+      "One entry from each of several files: response, force, and the file; -xy turns a sign",
+      [this](const std::string& text) { take_entry(text); });
+  app.add_option_function<std::string>(
+         "--functions",
+         [this](const std::string& text) {
+           const auto list = parse_index_list(text);
+           if (!list) throw CLI::ValidationError("--functions", text + ": expected a list, as 1-4,7");
+           choice_.functions = *list;
+         },
+         "Only these functions of a universal file, as 1-4,7")
+      ->type_name("LIST");
+  cli::add_integer_option(app, "--node", choice_.node, std::numeric_limits<int>::min(),
+                          "Only what was measured at this node of a universal file");
+  cli::add_number_option(app, "--averages", choice_.averages, "Averages behind the file's coherences",
+                         "a number, at least 1", [](double value) { return value >= 1; });
+  cli::add_band_option(app, "--band", band_, "Use only the lines in this band, Hz");
+  declared_ = {app.get_option("--from"),     app.get_option("--quantity"),  app.get_option("--unit"),
+               app.get_option("--entry"),    app.get_option("--functions"), app.get_option("--node"),
+               app.get_option("--averages"), app.get_option("--band")};
+}
+
+void MeasurementOptions::take_entry(const std::string& text) {
+  const auto equals = text.find('=');
+  auto part = equals == std::string::npos ? std::nullopt : frf_part_named(text.substr(0, equals));
+  if (!part || equals + 1 == text.size())
+    throw CLI::ValidationError(
+        "--entry", text + ": expected DIRECTIONS=FILE, as xy=tap.csv (response x, force along y)");
+  parts_.push_back(*part);
+  part_paths_.push_back(text.substr(equals + 1));
+}
+
+// Options that the input's form has no use for are a mistake.
+void MeasurementOptions::check_form(const Input& input, const FrfChoice& choice) const {
+  const FrfForm form = frf_form_of(input, choice);
+  if (form != FrfForm::kUniversalFile && (!choice.functions.empty() || choice.node))
+    throw cli::Failure(cli::ExitStatus::kUsage,
+                       input.source.name + ": expected a universal file with --functions and --node");
+  if (form != FrfForm::kJson) return;
+  if (choice.unit || choice.averages)
+    throw cli::Failure(
+        cli::ExitStatus::kUsage,
+        input.source.name +
+            ": a frf document says its units and averages itself: expected no --unit, no --averages");
+  if (!choice.quantity) return;
+  const Quantity told = frf_from_json(input.document, input.source).quantity;
+  if (told != *choice.quantity) {
+    throw cli::Failure(cli::ExitStatus::kUsage, "--quantity: " + quantity_ + ": expected " +
+                                                    quantity_name(told) + ", as the document says");
+  }
+}
+
+Measurement MeasurementOptions::read(const std::string& main_input, const Reader& read_input) const {
+  FrfChoice choice = choice_;
+  choice.form = frf_form_from_name(from_);
+  if (!quantity_.empty()) choice.quantity = quantity_from_name(quantity_);
+  const auto form = from_.empty()     ? cli::InputForm::kByContent
+                    : from_ == "json" ? cli::InputForm::kJson
+                                      : cli::InputForm::kText;
+  Measurement result;
+  const auto checked = [&](const std::string& path) {
+    Input input = read_input(path, form);
+    check_form(input, choice);
+    if (result.name.empty()) result.name = input.source.name;
+    result.is_document = frf_form_of(input, choice) == FrfForm::kJson;
+    return input;
+  };
+  if (parts_.empty()) {
+    result.frf = import_frf(checked(main_input), choice, result.remarks);
+    for (std::string& remark : result.remarks) remark = result.name + ": " + remark;
+  } else {
+    if (main_input != "-")
+      throw cli::Failure(cli::ExitStatus::kUsage, main_input + ": expected no other input with --entry");
+    std::vector<FrfPart> parts = parts_;
+    for (std::size_t i = 0; i < parts.size(); ++i) parts[i].input = checked(part_paths_[i]);
+    result.frf = import_frf_parts(parts, choice, result.remarks);
+  }
+  if (!band_) return result;
+  result.frf = within_band(result.frf, band_->from, band_->to);
+  if (result.frf.frequency_hz.size() == 0)
+    throw DataError(result.name, "", "", "no lines in the band: expected some in --band");
+  return result;
+}
+
+}  // namespace stablecut
