@@ -5,6 +5,30 @@
 
 namespace stablecut {
 
+std::vector<std::size_t> FitData::vector_parts() const {
+  constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> part(curves.size(), kNone);
+  std::size_t parts = 0;
+  for (std::size_t first = 0; first < curves.size(); ++first) {
+    if (part[first] != kNone) continue;
+    part[first] = parts;
+    for (bool grew = true; grew;) {
+      grew = false;
+      for (std::size_t a = 0; a < curves.size(); ++a) {
+        for (std::size_t b = 0; b < curves.size(); ++b) {
+          if (part[a] != parts || part[b] != kNone) continue;
+          if (curves[a].response != curves[b].response && curves[a].reference != curves[b].reference)
+            continue;
+          part[b] = parts;
+          grew = true;
+        }
+      }
+    }
+    ++parts;
+  }
+  return part;
+}
+
 std::vector<DirectionGroup> independent_groups(const FrequencyResponse& frf) {
   const std::vector<std::string> names = direction_names(frf);
   const auto index = [&](const std::string& name) {

@@ -22,6 +22,10 @@ struct FitData {
   Eigen::Index dofs = 0;
   std::vector<Curve> curves;
 
+  /// Which curves share components of psi_r or psi_l, directly or by others: a number from 0 on for each
+  /// curve. Between two parts the scale of a mode's vectors is free.
+  std::vector<std::size_t> vector_parts() const;
+
   Eigen::Index lines() const { return s.size(); }
   /// Mean distance between lines, rad/s.
   double line_spacing() const { return (s[lines() - 1] - s[0]).imag() / static_cast<double>(lines() - 1); }

@@ -50,14 +50,21 @@ STABLECUT_WIDE PairSums pair_sums(const double* omega, const double* weight, con
 }  // namespace
 
 Mode rank_one_mode(const FitData& data, Complex pole, const Eigen::RowVectorXcd& residue) {
-  Eigen::MatrixXcd matrix = Eigen::MatrixXcd::Zero(data.dofs, data.dofs);
-  for (std::size_t e = 0; e < data.curves.size(); ++e)
-    matrix(data.curves[e].response, data.curves[e].reference) = residue[static_cast<Eigen::Index>(e)];
-  const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(matrix, Eigen::ComputeThinU | Eigen::ComputeThinV);
   Mode mode;
   set_pole(mode, pole);
-  mode.psi_r = svd.matrixU().col(0);
-  mode.psi_l = svd.singularValues()[0] * svd.matrixV().col(0).conjugate();
+  mode.psi_r = mode.psi_l = Eigen::VectorXcd::Zero(data.dofs);
+  // Curves that share no component of either vector (xy and yx alone) are each of rank one by themselves.
+  const std::vector<std::size_t> part = data.vector_parts();
+  for (std::size_t p = 0; std::find(part.begin(), part.end(), p) != part.end(); ++p) {
+    Eigen::MatrixXcd matrix = Eigen::MatrixXcd::Zero(data.dofs, data.dofs);
+    for (std::size_t e = 0; e < data.curves.size(); ++e) {
+      if (part[e] == p)
+        matrix(data.curves[e].response, data.curves[e].reference) = residue[static_cast<Eigen::Index>(e)];
+    }
+    const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(matrix, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    mode.psi_r += svd.matrixU().col(0);
+    mode.psi_l += svd.singularValues()[0] * svd.matrixV().col(0).conjugate();
+  }
   return mode;
 }
 
