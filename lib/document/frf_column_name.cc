@@ -13,7 +13,13 @@ namespace {
 bool is_direction(char c) { return c == 'x' || c == 'y' || c == 'z'; }
 
 std::optional<ColumnPart> part_named(const std::string& word) {
-  static const std::map<std::string, ColumnPart> kWords = {{"f", ColumnPart::kFrequency},
+  static const std::map<std::string, ColumnPart> kWords = {{"frequenz", ColumnPart::kFrequency},
+                                                           {"frequence", ColumnPart::kFrequency},
+                                                           {"realteil", ColumnPart::kReal},
+                                                           {"imagin", ColumnPart::kImaginary},
+                                                           {"imaginaerteil", ColumnPart::kImaginary},
+                                                           {"betrag", ColumnPart::kMagnitude},
+                                                           {"f", ColumnPart::kFrequency},
                                                            {"freq", ColumnPart::kFrequency},
                                                            {"frequency", ColumnPart::kFrequency},
                                                            {"hz", ColumnPart::kFrequency},
@@ -61,11 +67,12 @@ bool looks_like_unit(const std::string& text) {
 std::optional<ColumnName> column_name(const std::string& field) {
   ColumnName name;
   std::string text = lower(field);
+  std::string inside;  // the last brackets
   // A unit stands in the last brackets, unless these hold a part or directions: Re(Hxx).
   const auto open = text.find_last_of("[(");
   if (open != std::string::npos) {
     const auto close = text.find_first_of("])", open);
-    const std::string inside = field.substr(open + 1, close == std::string::npos ? close : close - open - 1);
+    inside = field.substr(open + 1, close == std::string::npos ? close : close - open - 1);
     // `(m/s^2)/N` in brackets of the other kind, or with what follows them.
     for (const char* outer : {"[", "("}) {
       const auto from = field.find(outer);
@@ -82,6 +89,18 @@ std::optional<ColumnName> column_name(const std::string& field) {
     if (name.unit.empty() && looks_like_unit(inside)) {
       name.unit = inside;
       text = text.substr(0, open) + (close == std::string::npos ? "" : " " + text.substr(close + 1));
+    }
+  }
+  // re_um_per_n.
+  if (const auto per = text.find("_per_"); name.unit.empty() && per != std::string::npos && per > 0) {
+    const auto before = text.find_last_of("_ ", per - 1);
+    const std::size_t start = before == std::string::npos ? 0 : before + 1;
+    std::string unit = text.substr(start);
+    for (auto at = unit.find("_per_"); at != std::string::npos; at = unit.find("_per_"))
+      unit.replace(at, 5, "/");
+    if (frf_unit(unit)) {
+      name.unit = unit;
+      text.erase(start);
     }
   }
   if (name.unit.empty()) {
@@ -117,7 +136,20 @@ std::optional<ColumnName> column_name(const std::string& field) {
     const bool all = word.size() <= 2 && std::all_of(word.begin(), word.end(), is_direction);
     if (all) directions += word;
   }
-  if (lower(name.unit) == "db" && part == ColumnPart::kMagnitude) part = ColumnPart::kDecibel;
+  // dB, and of what: `dB re 1 m/N`.
+  if (lower(name.unit).starts_with("db") &&
+      (!part || part == ColumnPart::kMagnitude || part == ColumnPart::kDecibel)) {
+    part = ColumnPart::kDecibel;
+    std::string_view of = trimmed(std::string_view(name.unit).substr(2));
+    for (const std::string_view word : {"re", ":", "1"}) {
+      if (of.starts_with(word)) of = trimmed(of.substr(word.size()));
+    }
+    name.unit = std::string(of);
+  }
+  const auto is_side = [](char c) { return is_direction(c) || c == 'h' || c == ',' || c == '/' || c == '_'; };
+  if (part == ColumnPart::kPhase && name.unit.empty() && !part_named(lower(inside)) &&
+      !std::all_of(inside.begin(), inside.end(), [&](char c) { return is_side(lower({c})[0]); }))
+    name.unit = inside;  // none that is known
   if (!part && frequency_unit(name.unit)) part = ColumnPart::kFrequency;
   if (!part) return std::nullopt;
   if (part == ColumnPart::kFrequency && (text.starts_with("omega") || lower(name.unit) == "rad"))

@@ -96,6 +96,13 @@ class ColumnReader {
       const bool begins = !row.fields.empty() && is_number(row.fields[0]) && row.fields.size() >= 3;
       if (begins && (first == rows_.size() || row.fields.size() == rows_[first].fields.size()))
         data_wrong(row);
+      // Three numbers and a text: of a .frf, but its unit.
+      if (begins && is_number(row.fields[1]) && is_number(row.fields[2])) {
+        std::string text;
+        for (std::size_t f = 3; f < row.fields.size(); ++f) text += (f == 3 ? "" : " ") + row.fields[f];
+        throw DataError(source_.name, line_place(row.line), text,
+                        "expected a unit behind the numbers, as m/N, or nothing");
+      }
     }
     if (first < rows_.size()) return first;
     if (rows_.size() == 1 && is_header(rows_.front()) && rows_.front().fields.size() >= 3)
@@ -132,12 +139,24 @@ class ColumnReader {
       names = std::move(found);
       names_row = i - 1;
     }
+    if (names.empty() && first > 0) refuse_unknown_names(rows_[first - 1], numbers);
     for (std::size_t i = names_row + 1; i < first; ++i) take_unit_row(rows_[i], names);
     if (!names.empty()) {
       header_line_ = rows_[names_row].line;
-      name_columns(names, numbers.fields.size());
+      name_columns(names, number_of_columns(first));
     }
     if (plan_.entries.empty()) columns_by_count(first);
+  }
+
+  // A header of as many names as there are columns, none of which tells a part: what the columns hold would
+  // be a guess.
+  void refuse_unknown_names(const TableRow& row, const TableRow& numbers) const {
+    if (row.fields.size() < 3 || row.fields.size() > numbers.fields.size() || !is_header(row)) return;
+    std::string list;
+    for (const std::string& field : row.fields) list += (list.empty() ? "" : ", ") + field;
+    throw DataError(
+        source_.name, line_place(row.line), list,
+        "expected names that tell what the columns hold, as f_hz, re, im or f_hz, magnitude, phase");
   }
 
   // Units below the names.
@@ -162,7 +181,11 @@ class ColumnReader {
 
   void name_columns(const std::vector<std::optional<ColumnName>>& names, std::size_t width) {
     bool has_frequency = false;
-    for (std::size_t i = 0; i < std::min(names.size(), width); ++i) {
+    if (names.size() < width) {
+      throw DataError(source_.name, line_place(header_line_), std::to_string(names.size()) + " names",
+                      "expected one for each of " + std::to_string(width) + " columns");
+    }
+    for (std::size_t i = 0; i < width; ++i) {
       if (!names[i]) continue;
       const ColumnName& name = *names[i];
       if (name.part == ColumnPart::kFrequency) {
@@ -205,7 +228,10 @@ class ColumnReader {
       if (name.part == ColumnPart::kPhase) {
         if (unit.starts_with("rad")) entry.radians = true;
         if (unit.starts_with("deg") || unit == "\xC2\xB0" || unit == "\xB0") entry.radians = false;
+        if (!unit.empty() && !entry.radians) header_wrong(name.unit, "expected a phase in deg or rad");
       } else if (const auto told = frf_unit(name.unit)) {
+        if (entry.unit && (entry.unit->to_si != told->to_si || entry.unit->quantity != told->quantity))
+          header_wrong(name.unit, "expected one unit for both parts of " + entry.response + entry.reference);
         entry.unit = told;
       } else if (!unit.empty() && unit != "db" && unit != "-" && !choice_.unit) {
         header_wrong(name.unit,
@@ -266,6 +292,10 @@ class ColumnReader {
     }
     frf.quantity = choice_.quantity.value_or(Quantity::kReceptance);
     bool told = false;
+    const auto with_unit = std::count_if(plan_.entries.begin(), plan_.entries.end(),
+                                         [](const EntryColumns& entry) { return entry.unit.has_value(); });
+    if (!common && with_unit > 0 && with_unit < static_cast<std::ptrdiff_t>(plan_.entries.size()))
+      header_wrong("units", "expected them for all entries, or for none (--unit)");
     for (EntryColumns& entry : plan_.entries) {
       if (choice_.unit || (common && !entry.unit)) entry.unit = common;
       if (!entry.unit) continue;
@@ -300,11 +330,7 @@ class ColumnReader {
       }
       frf.entries.push_back(std::move(entry));
     }
-    std::size_t width = rows_[first].fields.size();
-    // A unit behind the numbers of the first line is no column.
-    while (width > 0 && !is_number(rows_[first].fields[width - 1]) &&
-           !is_no_number(rows_[first].fields[width - 1]))
-      --width;
+    const std::size_t width = number_of_columns(first);
     for (Eigen::Index line = 0; line < lines; ++line) {
       const TableRow& row = rows_[first + static_cast<std::size_t>(line)];
       check_width(row, width, line == 0);
@@ -325,6 +351,14 @@ class ColumnReader {
     }
     for (std::size_t e = 0; e < plan_.entries.size(); ++e)
       finish_entry(frf.entries[e], plan_.entries[e], first);
+  }
+
+  // A unit behind the numbers of the first line is no column, nor is an empty field.
+  std::size_t number_of_columns(std::size_t row) const {
+    const std::vector<std::string>& fields = rows_[row].fields;
+    std::size_t width = fields.size();
+    while (width > 0 && !is_number(fields[width - 1]) && !is_no_number(fields[width - 1])) --width;
+    return width;
   }
 
   void check_width(const TableRow& row, std::size_t width, bool first) const {
@@ -359,6 +393,11 @@ class ColumnReader {
                            short_number(largest) + ", taken as " + (radians ? "radians" : "degrees"));
       }
       for (auto& value : entry.h) {
+        if (!columns.decibel && value.real() < 0) {
+          throw DataError(source_.name, "",
+                          entry.response + entry.reference + ": magnitude " + short_number(value.real()),
+                          "expected none below 0 (is it in dB?)");
+        }
         const double magnitude = columns.decibel ? std::pow(10, value.real() / 20) : value.real();
         const double phase = radians ? value.imag() : radians_from_degrees(value.imag());
         value = {magnitude * std::cos(phase), magnitude * std::sin(phase)};

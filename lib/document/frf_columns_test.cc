@@ -123,3 +123,42 @@ TEST_CASE("a bad line is named") {
             .find("f: line 1: xx: expected a column of the magnitude and one of") == 0);
   CHECK(complaint("f,Re,Im,Coh\n1,2,3,1.5\n") == "f: line 2: 1.5: expected a coherence from 0 to 1");
 }
+
+TEST_CASE("what would be a guess is refused") {
+  // Row names without a name, and decimal commas between commas.
+  CHECK(complaint("Frequency Real Imag\n1 5 2 3\n2 6 2 3\n") ==
+        "f: line 1: 3 names: expected one for each of 4 columns");
+  CHECK(complaint("Frequency,Real,Imag\n5,000,-0,1,0,2\n")
+            .find("f: line 1: 3 names: expected one for each of 6 columns") == 0);
+  // Thousands separators.
+  CHECK(complaint("1,000\t1.2e-07\t1\n1,001\t1.2e-07\t1\n").find("expected one decimal mark in the file") !=
+        std::string::npos);
+  CHECK(complaint("\"1,000\",1.2e-07,1\n").find("expected one decimal mark in the file") !=
+        std::string::npos);
+  CHECK(complaint("1.000;1,2e-07;1\n").find("f: line 1: 1,2e-07: expected one decimal mark") == 0);
+  // Names that tell nothing, also of time records.
+  CHECK(complaint("Frecuencia (Hz),Magnitud (m/N),Fase (deg)\n1,2,3\n").find("f: line 1: ") == 0);
+  CHECK(complaint("Time (s),Force (N),Acceleration (m/s^2)\n0,2,3\n")
+            .find("f: line 1: Time (s), Force (N), Acceleration (m/s^2): expected names that tell") == 0);
+  // Three numbers and a text that is no unit.
+  CHECK(complaint("5 2 3 furlongs/N\n6 2 3\n") ==
+        "f: line 1: furlongs/N: expected a unit behind the numbers, as m/N, or nothing");
+  CHECK(complaint("f,Magnitude,Phase (deg)\n1,-152,3\n")
+            .find("f: xx: magnitude -152: expected none below 0 (is it in dB?)") == 0);
+  CHECK(complaint("f,Magnitude,Phase (mrad)\n1,2,3\n") == "f: line 1: mrad: expected a phase in deg or rad");
+  CHECK(complaint("f,Re (um/N),Im (m/N)\n1,2,3\n")
+            .find("f: line 1: m/N: expected one unit for both parts of xx") == 0);
+  CHECK(complaint("f,Re(Hxx) [um/N],Im(Hxx) [um/N],Re(Hyy),Im(Hyy)\n1,2,3,4,5\n")
+            .find("f: line 1: units: expected them for all entries") == 0);
+}
+
+TEST_CASE("decibels of a unit, units in names, names in German") {
+  const auto is = [](const FrequencyResponse& frf, Complex value) {
+    return std::abs(frf.entries[0].h[0] - value) < 1e-12 * std::abs(value);
+  };
+  CHECK(is(read("f,Magnitude (dB re 1 m/N),Phase (deg)\n1,-120,90\n"), Complex(0, 1e-6)));
+  CHECK(is(read("f,Magnitude (dB um/N),Phase (deg)\n1,20,0\n"), 1e-5));
+  CHECK(is(read("f_hz,re_um_per_n,im_um_per_n\n1,2,3\n"), Complex(2e-6, 3e-6)));
+  CHECK(read("f_hz,re_m_per_s2_per_n,im_m_per_s2_per_n\n1,2,3\n").quantity == Quantity::kAccelerance);
+  CHECK(is(read("Frequenz;Imagin\xC3\xA4rteil;Realteil\n1;3;2\n"), Complex(2, 3)));
+}

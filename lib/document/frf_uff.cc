@@ -32,6 +32,7 @@ constexpr std::array kTypeNames = {"general",
                                    "a spectrum"};
 constexpr double kSameLines = 1e-5;  // of the last line: records of six digits
 constexpr double kSameFactor = 1e-3;
+constexpr double kPercentFrom = 1.5;  // a coherence above is none
 
 std::string type_name(int type) {
   const bool named = type >= 0 && type < static_cast<int>(kTypeNames.size());
@@ -85,14 +86,16 @@ std::optional<FrfUnit> labelled_unit(const UniversalAxis& response, const Univer
 
 // 164's units have no g: a label with a g means it.
 bool is_in_g(const UniversalAxis& response) {
-  const auto whole = physical_unit(response.unit);
-  if (!whole) return false;
-  const std::string plain = lower(plain_signs(response.unit));
-  for (std::size_t i = 0; i < plain.size(); ++i) {
-    const auto letter = [&](std::size_t at) {
-      return at < plain.size() && std::isalpha(static_cast<unsigned char>(plain[at]));
-    };
-    if (plain[i] == 'g' && !(i > 0 && letter(i - 1)) && !letter(i + 1)) return true;
+  if (!physical_unit(response.unit)) return false;
+  std::string word;
+  for (const char c : lower(plain_signs(response.unit)) + ' ') {
+    if (c == '\'') continue;
+    if (std::isalpha(static_cast<unsigned char>(c))) {
+      word += c;
+    } else {
+      if (word == "g" || word == "gn" || word == "gs") return true;
+      word.clear();
+    }
   }
   return false;
 }
@@ -227,27 +230,37 @@ class Collector {
       say(function.place(9) + ": " + shown(shown_axis(response)) +
           ": the unit is none of that data type: the type is believed");
     }
+    const std::string units =
+        shown(response.unit) + " over " +
+        (function.denominator.unit.empty() ? "a force" : shown(function.denominator.unit));
     if (function.units) {
+      if (!labelled && !response.unit.empty())
+        say(function.place(9) + ": " + units + ": not known as a unit: dataset 164 is believed (--unit)");
       meaning.to_si = function.units->force_factor / function.units->length_factor;
       if (label_fits && std::abs(labelled->to_si / meaning.to_si - 1) > kSameFactor) {
         if (is_in_g(response)) {
           meaning.to_si = labelled->to_si;
-          say(function.place(9) + ": " + shown(response.unit) +
-              ": taken as 9.80665 m/s^2, which dataset 164 cannot say");
+          say(function.place(9) + ": " + units +
+              ": taken with a g of 9.80665 m/s^2, which dataset 164 cannot say");
         } else {
-          say(function.place(9) + ": " + shown(response.unit) +
-              ": dataset 164 says otherwise, and is believed (--unit)");
+          say(function.place(9) + ": " + units + ": dataset 164 says otherwise, and is believed (--unit)");
         }
       }
     } else if (label_fits) {
       meaning.to_si = labelled->to_si;
+    } else if (!response.unit.empty() || !function.denominator.unit.empty()) {
+      say(function.place(9) + ": " + units +
+          ": not known as a unit, and there is no dataset 164: taken as SI (--unit)");
     } else {
       without_unit_ = true;
     }
     return meaning;
   }
 
-  Eigen::VectorXd lines_of(const UniversalFunction& function) const {
+  Eigen::VectorXd lines_of(const UniversalFunction& function) {
+    const std::string& unit = function.abscissa_axis.unit;
+    if (!unit.empty() && !frequency_unit(unit))
+      say(function.place(8) + ": " + shown(unit) + ": not known as a unit of frequency: taken as Hz");
     const double to_hz = frequency_unit(function.abscissa_axis.unit).value_or(1);
     Eigen::VectorXd lines = to_hz * function.abscissa;
     for (Eigen::Index i = 0; i < lines.size(); ++i) {
@@ -350,7 +363,13 @@ class Collector {
     if (entry == frf.entries.end()) return;
     check_lines(frf, function, lines_of(function));
     entry->coherence =
-        function.values.real().array().isFinite().select(function.values.real(), 0.0).cwiseMax(0).cwiseMin(1);
+        function.values.real().array().isFinite().select(function.values.real(), 0.0).cwiseMax(0);
+    const double largest = entry->coherence.maxCoeff();
+    if (largest > kPercentFrom) {
+      say(function.place(12) + ": coherences up to " + short_number(largest) + ": taken as percent");
+      entry->coherence /= 100;
+    }
+    entry->coherence = entry->coherence.cwiseMin(1).eval();
     entry->averages = choice_.averages;
   }
 
@@ -363,8 +382,7 @@ class Collector {
   }
 
   void say_once_for_all() {
-    if (without_unit_)
-      remarks_.push_back("no unit that could be read, and no dataset 164: taken as SI (--unit)");
+    if (without_unit_) remarks_.push_back("no unit, and no dataset 164: taken as SI (--unit)");
     if (without_direction_) remarks_.push_back("directions 0, which are none: taken as x");
   }
 

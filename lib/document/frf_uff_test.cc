@@ -286,16 +286,25 @@ TEST_CASE("what a function means") {
                 "        13    0    1    0 NONE                 NONE                ");
   const double inch_per_pound = 0.0254 / 4.4482216152605;
   CHECK(std::abs(read(units + unlabelled).entries[0].h[0] / kValues[0] - inch_per_pound) < 1e-9);
-  CHECK(remarks_on(unlabelled).at(0).find("no unit that could be read, and no dataset 164: taken as SI") ==
-        0);
+  CHECK(remarks_on(unlabelled).at(0).find("no unit, and no dataset 164: taken as SI") == 0);
   // A label in g is believed beside dataset 164; another that contradicts it is not. Both are said.
   CHECK(std::abs(read(units + in_g).entries[0].h[0] - 9.80665 * kValues[0]) < 1e-12);
-  CHECK(remarks_on(units + in_g).at(0).find("taken as 9.80665 m/s^2") != std::string::npos);
+  CHECK(remarks_on(units + in_g).at(0).find("g over N: taken with a g of 9.80665 m/s^2") !=
+        std::string::npos);
   CHECK(std::abs(read(units + Dataset().text()).entries[0].h[0] / kValues[0] - inch_per_pound) < 1e-9);
   CHECK(remarks_on(units + Dataset().text()).at(0).find("dataset 164 says otherwise, and is believed") !=
         std::string::npos);
   CHECK(read(units + in_g, {.unit = frf_unit("m/N")}).entries[0].h[0] == kValues[0]);
   CHECK(read(Dataset().text(), {.quantity = Quantity::kMobility}).quantity == Quantity::kMobility);
+  // Behind the functions it counts too; a label that is not known is named.
+  CHECK(read(unlabelled + units).entries[0].h == read(units + unlabelled).entries[0].h);
+  const std::string volts =
+      with_axes("        12    1    0    0 Acceleration         V                   ", force);
+  CHECK(remarks_on(volts).at(0).find(
+            "line 11 (function 1, record 9): V over N: not known as a unit, and there is no dataset 164") ==
+        0);
+  CHECK(remarks_on(units + volts).at(0).find("V over N: not known as a unit: dataset 164 is believed") !=
+        std::string::npos);
   const std::string nothing =
       with_axes("         0    0    0    0 NONE                 NONE                ",
                 "         0    0    0    0 NONE                 NONE                ");
@@ -351,6 +360,17 @@ TEST_CASE("coherences go to their entries") {
   REQUIRE(frf.entries[0].coherence.size() == 3);
   CHECK(frf.entries[0].coherence[2] == 0.5);
   CHECK(frf.entries[0].averages == 4.0);
+}
+
+TEST_CASE("coherences in percent") {
+  const std::string coherence = changed([](Dataset& d) {
+    d.places[4] = '6';
+    d.layout[9] = '2';
+    d.values = "  9.00000E+01  1.00000E+02  5.00000E+01\n";
+  });
+  CHECK(read(Dataset().text() + coherence).entries[0].coherence == Eigen::Vector3d(0.9, 1, 0.5));
+  CHECK(remarks_on(Dataset().text() + coherence).at(0).find("coherences up to 100: taken as percent") !=
+        std::string::npos);
 }
 
 TEST_CASE("what a division by zero leaves at 0 Hz is no error in a universal file") {

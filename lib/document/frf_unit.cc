@@ -31,23 +31,35 @@ constexpr std::array kNames = {
     NamedUnit{"cm", length(1e-2)},
     NamedUnit{"um", length(1e-6)},
     NamedUnit{"micron", length(1e-6)},
+    NamedUnit{"microns", length(1e-6)},
+    NamedUnit{"micrometer", length(1e-6)},
+    NamedUnit{"meter", length(1)},
+    NamedUnit{"meters", length(1)},
     NamedUnit{"nm", length(1e-9)},
     NamedUnit{"in", length(0.0254)},
     NamedUnit{"inch", length(0.0254)},
+    NamedUnit{"inches", length(0.0254)},
     NamedUnit{"mil", length(25.4e-6)},
+    NamedUnit{"mils", length(25.4e-6)},
+    NamedUnit{"ips", {0.0254, 1, -1, 0}},
     NamedUnit{"ft", length(0.3048)},
     NamedUnit{"s", {1, 0, 1, 0}},
     NamedUnit{"sec", {1, 0, 1, 0}},
     NamedUnit{"ms", {1e-3, 0, 1, 0}},
     NamedUnit{"g", {kGravity, 1, -2, 0}},
     NamedUnit{"gn", {kGravity, 1, -2, 0}},
+    NamedUnit{"gs", {kGravity, 1, -2, 0}},
     NamedUnit{"mg", {kGravity * 1e-3, 1, -2, 0}},
     NamedUnit{"n", force(1)},
+    NamedUnit{"newton", force(1)},
+    NamedUnit{"newtons", force(1)},
     NamedUnit{"mn", force(1e-3)},
     NamedUnit{"kn", force(1e3)},
     NamedUnit{"dan", force(10)},
     NamedUnit{"lbf", force(kPoundForce)},
     NamedUnit{"lb", force(kPoundForce)},
+    NamedUnit{"lbs", force(kPoundForce)},
+    NamedUnit{"pounds", force(kPoundForce)},
     NamedUnit{"kgf", force(kGravity)},
     NamedUnit{"kp", force(kGravity)},
     NamedUnit{"kg", {1, -1, 2, 1}},
@@ -151,7 +163,8 @@ class UnitParser {
 }  // namespace
 
 std::optional<PhysicalUnit> physical_unit(std::string_view text) {
-  const std::string plain = plain_signs(text);
+  std::string plain = plain_signs(text);
+  if (const auto plural = plain.find("'s"); plural != std::string::npos) plain.erase(plural, 1);  // g's
   if (plain.find_first_not_of(' ') == std::string::npos) return std::nullopt;
   return UnitParser(plain).whole();
 }

@@ -97,15 +97,23 @@ std::vector<TableRow> table_rows(const Source& source) {
     lines.erase(lines.begin());
   }
   std::vector<TableRow> rows;
+  bool has_point = false, has_comma = false;
   for (const auto& [number, line] : lines) {
     rows.push_back({number, fields_of(line, separator)});
     for (std::string& field : rows.back().fields) {
       field = plain_minus(std::move(field));
       // A comma left inside a field is a decimal comma where the whole field is then a number.
-      if (field.find(',') == std::string::npos) continue;
+      const bool comma = field.find(',') != std::string::npos;
       std::string pointed = field;
-      std::replace(pointed.begin(), pointed.end(), ',', '.');
-      if (parse_number(pointed)) field = pointed;
+      if (comma) std::replace(pointed.begin(), pointed.end(), ',', '.');
+      if (!parse_number(pointed)) continue;
+      (comma ? has_comma : has_point) |= pointed.find('.') != std::string::npos;
+      if (has_comma && has_point) {
+        throw DataError(
+            source.name, line_place(number), field,
+            "expected one decimal mark in the file, commas or points, and no thousands separators");
+      }
+      field = std::move(pointed);
     }
   }
   return rows;

@@ -460,6 +460,10 @@ std::vector<UniversalFunction> read_universal_file(const Source& source) {
           DatasetReader(source, lines, *header, static_cast<int>(functions.size()) + 1).read(units));
     } else if (header->number == 164) {
       units = read_units(source, lines);
+      // Of a file that says its units at the end.
+      for (UniversalFunction& function : functions) {
+        if (!function.units) function.units = units;
+      }
     } else {
       ++others;
       while (const auto skipped = lines.next()) {

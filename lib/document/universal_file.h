@@ -53,7 +53,7 @@ struct UniversalFunction {
   Eigen::VectorXd abscissa;  ///< [values] as written
   Eigen::VectorXcd values;   ///< [values] as written; not a number where the file says so
   UniversalAxis abscissa_axis, ordinate, denominator;
-  std::optional<UniversalUnits> units;  ///< the last dataset 164 before it
+  std::optional<UniversalUnits> units;  ///< the last dataset 164 before it, else the first behind it
 
   /// `line 6 (function 1, record 5)`.
   std::string place(int record) const;

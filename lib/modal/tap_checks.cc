@@ -26,10 +26,12 @@ constexpr Eigen::Index kLeastLines = 20;
 constexpr double kNoiseShare = 0.3;
 // ... cannot be a structure's driving point when its imaginary part is positive by this share of the modulus.
 constexpr double kPositiveShare = 0.1;
-// What is ruined rises towards 0 Hz: by so much over what follows.
-constexpr double kRise = 2;
+// What is ruined rises towards 0 Hz: by so much over what follows. It ends where a clear curve rises.
+constexpr double kRise = 2, kClear = 0.1, kRising = 1.3;
 // Noise alone: nothing but it in most windows.
 constexpr double kDeadShare = 0.6, kDeadWindows = 0.8;
+// A part of H that counts: so many deviations.
+constexpr double kSignificant = 2;
 constexpr double kWrongSign = 0.8, kPoorCoherence = 0.8, kNotReciprocal = 0.1;
 // Of the variance of the coherence, in one period.
 constexpr double kOnePeriod = 0.25;
@@ -156,31 +158,33 @@ class TapChecks {
     return window.noise > kNoiseShare || (channel.driving_point && positive > kPositiveShare);
   }
 
-  // Up to where integration has ruined the data: there |H| rises towards 0 Hz, and is noise or no driving
-  // point's. Looked for below the highest window whose acceleration is a twentieth of the largest.
+  // Up to where integration has ruined the data: there |H| falls from 0 Hz on, and is noise or no driving
+  // point's. It ends where a clear curve rises, on the way to a resonance.
   std::optional<double> ruined_up_to(const Channel& channel) const {
     const std::vector<Window>& windows = channel.windows;
-    const auto acceleration = [](const Window& window) { return window.size * window.lo_hz * window.hi_hz; };
-    double most = 0;
-    for (const Window& window : windows) most = std::max(most, acceleration(window));
-    std::size_t end = 0;
-    for (std::size_t i = 0; i < windows.size(); ++i) {
-      if (acceleration(windows[i]) < 0.05 * most && windows[i].hi_hz < hz_[hz_.size() - 1] / 3) end = i + 1;
-    }
     std::size_t ruined = 0;
-    for (std::size_t i = 0; i < end; ++i) {
-      if (tells_nothing(channel, windows[i])) ruined = i + 1;
+    double least = windows[0].size;
+    for (std::size_t i = 0; i < windows.size(); ++i) {
+      const Window& window = windows[i];
+      least = std::min(least, window.size);
+      if (tells_nothing(channel, window)) {
+        ruined = i + 1;
+      } else if (window.noise < kClear && window.size > kRising * least) {
+        break;
+      }
     }
     if (ruined == 0 || ruined == windows.size()) return std::nullopt;
-    double largest = 0;
-    for (std::size_t i = 0; i < ruined; ++i) largest = std::max(largest, windows[i].size);
-    if (largest < kRise * windows[ruined].size) return std::nullopt;
+    if (windows[0].size < kRise * windows[ruined].size || 3 * windows[ruined - 1].hi_hz > hz_[hz_.size() - 1])
+      return std::nullopt;
     return windows[ruined - 1].hi_hz;
   }
 
+  // Driving points tell most; other entries only where there is none.
   void low_end() {
+    const bool any_driving = std::any_of(channels_.begin(), channels_.end(),
+                                         [](const Channel& c) { return c.driving_point && !c.dead; });
     for (const Channel& channel : channels_) {
-      if (channel.dead) continue;
+      if (channel.dead || channel.driving_point != any_driving) continue;
       const auto up_to = ruined_up_to(channel);
       if (!up_to || *up_to <= usable_from_) continue;
       usable_from_ = *up_to;
@@ -214,10 +218,18 @@ class TapChecks {
     double positive = 0, all = 0;
     for (const Window& window : channel.windows) {
       if (window.lo_hz <= usable_from_ || window.noise > kNoiseShare) continue;
+      if (std::abs(window.*part) < kSignificant * window.noise) continue;
       all += std::abs(window.*part);
       positive += std::max(window.*part, 0.0);
     }
     return all > 0 ? positive / all : 0.0;
+  }
+
+  // The imaginary part is a good part of H in a good part of the windows: no stiffness, or mass, alone.
+  static bool turning(const Channel& channel) {
+    const auto count = std::count_if(channel.windows.begin(), channel.windows.end(),
+                                     [](const Window& window) { return std::abs(window.positive) > 0.5; });
+    return 5 * count > static_cast<std::ptrdiff_t>(channel.windows.size());
   }
 
   // Slope of log |H| over log frequency.
@@ -242,7 +254,7 @@ class TapChecks {
       const double real = positive_share(channel, &Window::real);
       const double slope = slope_of(channel);
       const std::string name = name_of(*channel.entry);
-      if (imaginary > 0.2 && imaginary < 0.95 && (real > 0.95 || real < 0.05)) {
+      if (imaginary > 0.2 && imaginary < 0.95 && (real > 0.95 || real < 0.05) && turning(channel)) {
         say(name +
             ": its real part has one sign, where a driving point's imaginary part has: is it a velocity "
             "(--quantity), or was it one already? The modes would not be the tool's");
@@ -267,8 +279,14 @@ class TapChecks {
         if (a.dead || b.dead || a.entry->response >= a.entry->reference ||
             b.entry->response != a.entry->reference || b.entry->reference != a.entry->response)
           continue;
-        const Eigen::VectorXcd& of_a = a.entry->h;
-        const Eigen::VectorXcd& of_b = b.entry->h;
+        // On lines where both stand 10 dB above their noise.
+        const auto clear = [&](const Channel& c) {
+          return c.entry->h.cwiseAbs2().array() > c.variance.array() / (kNoiseShare * kNoiseShare);
+        };
+        const Eigen::VectorXd both =
+            (clear(a) && clear(b) && hz_.array() > usable_from_).cast<double>().matrix();
+        if (both.sum() < 0.1 * static_cast<double>(both.size())) continue;
+        const Eigen::VectorXcd of_a = both.cwiseProduct(a.entry->h), of_b = both.cwiseProduct(b.entry->h);
         if (of_a.dot(of_b).real() < -kWrongSign * of_a.norm() * of_b.norm()) {
           say(name_of(*a.entry) + " is " + name_of(*b.entry) +
               " with the other sign: one direction is swapped in one of them (-x in the file or in --entry); "
@@ -277,7 +295,7 @@ class TapChecks {
         }
         difference += (of_a - of_b).squaredNorm();
         sizes += std::pow(of_a.norm() + of_b.norm(), 2);
-        noise += a.variance.sum() + b.variance.sum();
+        noise += both.dot(a.variance + b.variance);
       }
     }
     if (sizes == 0) return;
