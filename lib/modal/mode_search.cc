@@ -1,6 +1,7 @@
 #include "modal/mode_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -45,6 +46,10 @@ constexpr double kLargerShare = 0.3;
 // A pole on a line and narrower than this many line spacings moves that line alone: a disturbed line, not a
 // mode.
 constexpr double kLeastHalfWidth = 0.02;
+// Poles that may stand for a rigid body: up to so many times the first line, or so much damped; and where its
+// own is looked for, in first lines.
+constexpr double kRigidReach = 4, kRigidDamping = 0.3;
+constexpr std::array kRigidPlaces = {0.5, 0.1, 0.02};
 
 }  // namespace
 
@@ -276,8 +281,8 @@ double ModeSearch::inflation_of(const RefinedModes& modes) const {
 // (Schwarz), and the log of how many lines it could have stood on, since noise is searched on all of them; of
 // what the residual with the mode tells: one that is not made of modes prices all of them higher.
 double ModeSearch::price(const RefinedModes& with, const RefinedModes& without) const {
-  const double information = (parameters_per_mode() / 2) * std::log(data_.values()) +
-                             std::log(static_cast<double>(data_.lines()));
+  const double information =
+      (parameters_per_mode() / 2) * std::log(data_.values()) + std::log(static_cast<double>(data_.lines()));
   if (limited_by_model_) {
     const double share = relative_error(without.modes) > kModelErrorFloor ? kLesserShare : kLargerShare;
     return std::max(information, share * without.chi_square);
@@ -319,11 +324,45 @@ void ModeSearch::find_modes() {
     poles = find_poles(std::min(pairs, data_.lines() / 3));
     if (5 * poles.size() < 3 * pairs || 3 * pairs >= data_.lines()) break;
   }
+  current_ = refined(modes_at(poles), kFirst);
+  try_rigid_body();
+}
+
+// Modes at the poles, each the nearest of rank one.
+std::vector<Mode> ModeSearch::modes_at(const Eigen::VectorXcd& poles) const {
   const LinearResidues linear = linear_residues(data_, poles);
   std::vector<Mode> modes;
   for (Eigen::Index k = 0; k < poles.size(); ++k)
     modes.push_back(rank_one_mode(data_, poles[k], linear.residue.row(k)));
-  current_ = refined(modes, kFirst);
+  return modes;
+}
+
+// A suspended structure moves as a rigid body, 1 / (m omega^2), from far below the lines: exact data of it
+// draw several poles to the first lines, from where none finds its way. One mode per direction there instead
+// of these, and of the heavily damped ones that help them, when it does as well.
+void ModeSearch::try_rigid_body() {
+  const double lo = data_.s[0].imag();
+  std::vector<Complex> kept;
+  for (const Mode& mode : current_.modes) {
+    const Complex pole = mode.pole();
+    if (std::abs(pole) > kRigidReach * lo && mode.damping_ratio < kRigidDamping) kept.push_back(pole);
+  }
+  const std::size_t dropped = current_.modes.size() - kept.size();
+  const auto bodies = static_cast<std::size_t>(data_.dofs);
+  if (dropped <= bodies) return;
+  for (const double place : kRigidPlaces) {
+    Eigen::VectorXcd poles(static_cast<Eigen::Index>(kept.size() + bodies));
+    std::copy(kept.begin(), kept.end(), poles.begin());
+    for (std::size_t d = 0; d < bodies; ++d)
+      poles[static_cast<Eigen::Index>(kept.size() + d)] =
+          place * (1 + 0.1 * static_cast<double>(d)) * lo * Complex(-0.05, 1);
+    const RefinedModes trial = refined(modes_at(poles), kFirst);
+    const double saved = static_cast<double>(dropped - bodies) * price(trial, trial);
+    if (trial.chi_square < current_.chi_square + saved) {
+      current_ = trial;
+      return;
+    }
+  }
 }
 
 // ---- selection ----
@@ -368,7 +407,9 @@ bool ModeSearch::remove_if_worthless(std::size_t k) {
 }
 
 bool ModeSearch::is_too_narrow(const Mode& mode) const {
-  return -mode.pole().real() < kLeastHalfWidth * data_.line_spacing();
+  const Complex pole = mode.pole();
+  const bool on_lines = pole.imag() >= data_.s[0].imag() && pole.imag() <= data_.s[data_.lines() - 1].imag();
+  return on_lines && -pole.real() < kLeastHalfWidth * data_.line_spacing();
 }
 
 // Tries a mode where the residual asks most for one. True when it pays.

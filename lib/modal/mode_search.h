@@ -63,6 +63,8 @@ class ModeSearch {
 
   Eigen::VectorXcd find_poles(Eigen::Index pairs) const;
   void find_modes();
+  std::vector<Mode> modes_at(const Eigen::VectorXcd& poles) const;
+  void try_rigid_body();
   void select();
   void remove_modes();
   bool remove_if_worthless(std::size_t k);
