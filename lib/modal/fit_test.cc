@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "modal/modal_fixtures_test.h"
 
 using namespace stablecut;
@@ -253,4 +254,41 @@ TEST_CASE("every number of the table lies within its deviations") {
     }
   }
   CHECK(square / static_cast<double>(8 * truth.modes.size()) == Approx(1).margin(0.7));
+}
+
+TEST_CASE("a suspended structure's rigid body is one mode below the lines") {
+  for (const double rigid_hz : {0.5, 1.0, 2.0}) {
+    for (const bool noisy : {false, true}) {
+      ModalModel model;
+      model.dofs = {"x"};
+      for (const auto& [hz, zeta] :
+           {std::pair(rigid_hz, 0.05), std::pair(600.0, 0.01), std::pair(1300.0, 0.008)}) {
+        Mode mode;
+        mode.frequency_hz = hz;
+        mode.damping_ratio = zeta;
+        mode.psi_r = mode.psi_l = Eigen::VectorXcd::Constant(1, std::sqrt(Complex(0, -0.5) / (kTwoPi * hz)));
+        model.modes.push_back(mode);
+      }
+      FrequencyResponse frf = synthesize(model, Eigen::VectorXd::LinSpaced(400, 5, 2000));
+      if (noisy) add_noise(frf, {40.0, std::nullopt, 5});
+      frf.entries[0].variance.resize(0);
+      INFO(rigid_hz << " Hz, noise: " << noisy);
+      const ModalFit fit = fit_modes(frf);
+      REQUIRE(fit.model.modes.size() == 3);
+      CHECK(fit.model.modes[0].out_of_band);
+      CHECK_FALSE(fit.limited_by_model);
+      CHECK(fit.model.modes[1].frequency_hz == Approx(600).epsilon(noisy ? 1e-3 : 1e-8));
+      CHECK(fit.model.modes[2].damping_ratio == Approx(0.008).epsilon(noisy ? 0.05 : 1e-6));
+    }
+  }
+}
+
+TEST_CASE("cross entries alone share their modes") {
+  FrequencyResponse frf = synthesize(fixtures::close_pair(), Eigen::VectorXd::LinSpaced(1500, 50, 1000));
+  add_noise(frf, {40.0, std::nullopt, 3});
+  for (auto& entry : frf.entries) entry.variance.resize(0);
+  std::erase_if(frf.entries, [](const auto& entry) { return entry.response == entry.reference; });
+  const ModalFit fit = fit_modes(frf);
+  CHECK(fit.model.modes.size() == 4);
+  CHECK_FALSE(fit.limited_by_model);
 }

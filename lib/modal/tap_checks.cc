@@ -130,6 +130,9 @@ class TapChecks {
     if (hz_.size() < 3) return;
     const Eigen::VectorXd steps = hz_.tail(hz_.size() - 1) - hz_.head(hz_.size() - 1);
     if (steps.maxCoeff() <= kUnevenLines * steps.minCoeff()) return;
+    // Frequencies that were rounded stay near equally spaced ones.
+    const Eigen::VectorXd even = Eigen::VectorXd::LinSpaced(hz_.size(), hz_[0], hz_[hz_.size() - 1]);
+    if ((hz_ - even).cwiseAbs().maxCoeff() < steps.mean() / 2) return;
     say("the lines are " + number(steps.minCoeff()) + " to " + number(steps.maxCoeff()) +
         " Hz apart: each counts alike, so that modes where they lie close are weighed more");
   }
