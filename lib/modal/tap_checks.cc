@@ -275,34 +275,34 @@ class TapChecks {
     }
   }
 
+  // By medians over the lines on which both stand 10 dB above their noise.
   void mirror_images() {
-    double difference = 0, sizes = 0, noise = 0;
+    std::vector<double> difference, noise;
     for (const Channel& a : channels_) {
       for (const Channel& b : channels_) {
         if (a.dead || b.dead || a.entry->response >= a.entry->reference ||
             b.entry->response != a.entry->reference || b.entry->reference != a.entry->response)
           continue;
-        // On lines where both stand 10 dB above their noise.
-        const auto clear = [&](const Channel& c) {
-          return c.entry->h.cwiseAbs2().array() > c.variance.array() / (kNoiseShare * kNoiseShare);
-        };
-        const Eigen::VectorXd both =
-            (clear(a) && clear(b) && hz_.array() > usable_from_).cast<double>().matrix();
-        if (both.sum() < 0.1 * static_cast<double>(both.size())) continue;
-        const Eigen::VectorXcd of_a = both.cwiseProduct(a.entry->h), of_b = both.cwiseProduct(b.entry->h);
-        if (of_a.dot(of_b).real() < -kWrongSign * of_a.norm() * of_b.norm()) {
-          say(name_of(*a.entry) + " is " + name_of(*b.entry) +
-              " with the other sign: one direction is swapped in one of them (-x in the file or in --entry); "
-              "the modes cannot be reciprocal");
-          return;
+        std::vector<double> together;
+        for (Eigen::Index i = 0; i < hz_.size(); ++i) {
+          const Complex of_a = a.entry->h[i], of_b = b.entry->h[i];
+          const double clear = kNoiseShare * std::min(std::abs(of_a), std::abs(of_b));
+          if (hz_[i] <= usable_from_ || clear * clear < std::max(a.variance[i], b.variance[i]) || clear == 0)
+            continue;
+          const double sizes = std::abs(of_a) + std::abs(of_b);
+          together.push_back((std::conj(of_a) * of_b).real() / (std::abs(of_a) * std::abs(of_b)));
+          difference.push_back(std::abs(of_a - of_b) / sizes);
+          noise.push_back(std::sqrt(a.variance[i] + b.variance[i]) / sizes);
         }
-        difference += (of_a - of_b).squaredNorm();
-        sizes += std::pow(of_a.norm() + of_b.norm(), 2);
-        noise += both.dot(a.variance + b.variance);
+        if (together.empty() || median(std::move(together)) > -kWrongSign) continue;
+        say(name_of(*a.entry) + " is " + name_of(*b.entry) +
+            " with the other sign: one direction is swapped in one of them (-x in the file or in --entry); "
+            "the modes cannot be reciprocal");
+        return;
       }
     }
-    if (sizes == 0) return;
-    const double index = std::sqrt(difference / sizes), of_noise = std::sqrt(noise / sizes);
+    if (difference.empty()) return;
+    const double index = median(std::move(difference)), of_noise = median(std::move(noise));
     if (index < std::max(kNotReciprocal, 3 * of_noise)) return;
     say("cross entries differ from their mirror images by " + percent(index) + ", noise alone would by " +
         percent(of_noise) +
