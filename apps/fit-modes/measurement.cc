@@ -13,16 +13,8 @@ void MeasurementOptions::declare(CLI::App& app) {
   cli::add_choice_option(app, "--from", from_, "json|uff|csv|frf", "Form of the input (default: by content)");
   cli::add_choice_option(app, "--quantity", quantity_, "receptance|mobility|accelerance",
                          "What a file holds that does not say so (default of columns: receptance)");
-  app.add_option_function<std::string>(
-         "--unit",
-         [this](const std::string& text) {
-           choice_.unit = frf_unit(text);
-           if (!choice_.unit)
-             throw CLI::ValidationError(
-                 "--unit", text + ": expected a unit of a response over a force, as um/N or g/lbf");
-         },
-         "Unit of the file's numbers, as um/N or (m/s^2)/N; wins over what the file says")
-      ->type_name("UNIT");
+  cli::add_unit_option(app, choice_.unit,
+                       "Unit of the file's numbers, as um/N or (m/s^2)/N; wins over what the file says");
   cli::add_repeated_option(
       app, "--entry", "XY=FILE",
       "One entry from each of several files: response, force, and the file; -xy turns a sign",

@@ -55,6 +55,22 @@ jq '.h[] |= (([.re, .im] | transpose | map(.[0] * .[0] + .[1] * .[1]) | add / le
 rcsa-couple --quiet --identify sure.json "$data/carbide-in-collet.json" -o sure-found.json
 check_jq "a variance of 0 is not believed to the letter" sure-found.json "$near"' .x | (.k1_n_per_m | near(4e7; 0.05)) and (.c1_n_s_per_m | near(150; 0.3)) and (.k2_n_m_per_rad | near(1.5e4; 0.02))'
 
+# The tip from whatever the laboratory has.
+fit-modes --convert --to uff "$data/carbide-tap.json" -o tap.uff
+fit-modes --convert "$data/carbide-tap.json" | jq -r '.h[] |= del(.variance) | .frequency_hz as $f | "f_hz,Re(Hxx),Im(Hxx),Re(Hyy),Im(Hyy)",
+  (range($f | length) as $i | [$f[$i], (.h[] | 1e6 * .re[$i], 1e6 * .im[$i])] | @csv)' >tap.csv
+jq '.h[] |= del(.variance)' "$data/carbide-tap.json" >plain.json
+for form in "plain.json" "tap.uff" "tap.csv --unit um/N"; do
+  # shellcheck disable=SC2086
+  rcsa-couple --quiet --identify $form "$data/carbide-in-collet.json" --no-provenance -o "form-${form:0:5}.json"
+done
+for form in tap.u tap.c; do
+  check_jq "$form: the same joint" form-$form.json '[paths(numbers) as $p | [getpath($p), ($p | . as $q | $other[0] | getpath($q))]
+    | select((.[0] - .[1] | fabs) > 1e-5 * (.[1] | fabs))] | length == 0' --slurpfile other form-plain.json
+done
+refused 64 '^rcsa-couple: --unit: a frf document says its units itself' rcsa-couple --identify plain.json --unit um/N "$data/carbide-in-collet.json"
+refused 64 '^rcsa-couple: --unit: expected --identify' rcsa-couple "$assembly" --unit um/N
+
 refused 64 '^rcsa-couple: --fitted: expected --identify' rcsa-couple "$assembly" --fitted x.json
 refused 64 '^rcsa-couple: --bounds: expected --identify' rcsa-couple "$assembly" --bounds k1=1:2
 refused 64 '^rcsa-couple: --bounds: k3=1:2: expected' rcsa-couple --identify joint.json "$assembly" --bounds k3=1:2

@@ -52,6 +52,8 @@ class RcsaCouple : public cli::Tool {
     add_file_option(app, "--joint", joint_path_, "Take the joint from a tool-joint document");
     add_file_option(app, "--identify", identify_path_,
                     "Identify the joint from a measured tip (frf), and write a tool-joint document");
+    cli::add_unit_option(app, unit_,
+                         "Unit of the measured tip's numbers, as um/N; wins over what its file says");
     cli::add_repeated_option(app, "--bounds", "NAME=LO:HI,...",
                              "Bounds of k1 (N/m), c1 (N s/m), k2 (N m/rad), c2 (N m s/rad) for --identify",
                              [this](const std::string& text) { take_bounds(text); });
@@ -68,6 +70,7 @@ class RcsaCouple : public cli::Tool {
       if (!fitted_path_.empty()) throw usage("--fitted: expected --identify");
       if (!objective_.empty()) throw usage("--objective: expected --identify");
       if (bounds_given_) throw usage("--bounds: expected --identify");
+      if (unit_) throw usage("--unit: expected --identify");
       couple();
     } else {
       if (!joint_path_.empty()) throw usage("--joint: expected no --identify");
@@ -230,7 +233,11 @@ class RcsaCouple : public cli::Tool {
   void identify() {
     const Input measured_input = read_input(identify_path_, cli::InputForm::kByContent);
     std::vector<std::string> remarks;
-    const FrequencyResponse tap = import_frf(measured_input, {}, remarks);
+    FrfChoice choice;
+    choice.unit = unit_;
+    if (unit_ && frf_form_of(measured_input, choice) == FrfForm::kJson)
+      throw usage("--unit: a frf document says its units itself");
+    const FrequencyResponse tap = import_frf(measured_input, choice, remarks);
     for (const std::string& remark : remarks) warn(measured_input.source.name + ": " + remark);
     const Input input = read_main_input(cli::InputForm::kJson);
     const Eigen::VectorXd wanted = assembly_frequencies(input.document, input.source);
@@ -324,6 +331,7 @@ class RcsaCouple : public cli::Tool {
 
   bool slopes_ = false, bounds_given_ = false;
   std::vector<double> positions_m_;
+  std::optional<FrfUnit> unit_;
   std::string assembly_name_, joint_path_, identify_path_, fitted_path_, rigid_path_, objective_;
   JointBounds bounds_;
 };

@@ -113,6 +113,12 @@ CLI::Option* add_choice_option(CLI::App& app, const std::string& name, std::stri
       ->type_name(words);
 }
 
+CLI::Option* add_unit_option(CLI::App& app, std::optional<FrfUnit>& value, const std::string& description) {
+  return add_parsed_option(app, "--unit", value, description, "UNIT",
+                           "a unit of a response over a force, as um/N or g/lbf",
+                           [](const std::string& text) { return frf_unit(text); });
+}
+
 Tool::Tool(std::string name, std::string purpose, std::string main_kind)
     : name_(std::move(name)), main_kind_(std::move(main_kind)), app_(std::move(purpose), name_) {}
 

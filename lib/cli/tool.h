@@ -11,6 +11,7 @@
 #include "base/progress.h"
 #include "base/range.h"
 #include "cli/output.h"
+#include "document/frf_unit.h"
 #include "document/provenance.h"
 #include "document/schemas.h"
 
@@ -102,6 +103,9 @@ CLI::Option* add_repeated_option(CLI::App& app, const std::string& name, const s
 /// An option whose text must be a whole number from `least` on.
 CLI::Option* add_integer_option(CLI::App& app, const std::string& name, std::optional<int>& value, int least,
                                 const std::string& description);
+
+/// --unit: a displacement, velocity or acceleration over a force.
+CLI::Option* add_unit_option(CLI::App& app, std::optional<FrfUnit>& value, const std::string& description);
 
 /// An option whose text must be one of the words, separated by | in `words`.
 CLI::Option* add_choice_option(CLI::App& app, const std::string& name, std::string& value,

@@ -123,6 +123,10 @@ FrequencyResponse responses_of(const Node& node, const DocumentLoader& load,
     FrfChoice choice;
     if (const auto name = node.find("quantity"))
       choice.quantity = quantity_from_name(name->word({"receptance", "mobility", "accelerance"}));
+    if (const auto unit = node.find("unit")) {
+      choice.unit = frf_unit(unit->text());
+      if (!choice.unit) unit->fail("expected a unit of a response over a force, as um/N");
+    }
     std::vector<std::string> remarks;
     frf = import_frf(found.input, choice, remarks);
     for (const std::string& remark : remarks) warnings.push_back(found.input.source.name + ": " + remark);
@@ -130,7 +134,7 @@ FrequencyResponse responses_of(const Node& node, const DocumentLoader& load,
     frf = frf_from_json(found.input.document, found.input.source, found.pointer);
   }
   if (!node.has("file")) return frf;
-  node.check_names({"file", "quantity", "response_position_mm", "reference_position_mm"});
+  node.check_names({"file", "quantity", "unit", "response_position_mm", "reference_position_mm"});
   for (auto& entry : frf.entries) {
     if (const auto place = node.find("response_position_mm"))
       entry.response_position_m = metres_from_mm(place->number(kPosition));
