@@ -127,15 +127,17 @@ class ColumnReader {
     const TableRow& numbers = rows_[first];
     std::size_t names_row = first;
     std::vector<std::optional<ColumnName>> names;
-    // The names are in the last row before the numbers that has some; a row of units may follow it.
-    for (std::size_t i = first; i > 0 && names_row == first; --i) {
+    // The names are in the row before the numbers that has most of them; a row of units may follow it.
+    std::ptrdiff_t most = 0;
+    for (std::size_t i = first; i > 0; --i) {
       std::vector<std::optional<ColumnName>> found;
       for (const std::string& field : rows_[i - 1].fields) found.push_back(column_name(field));
       const auto known =
           std::count_if(found.begin(), found.end(), [](const auto& n) { return n.has_value(); });
       const bool beyond_frequency = std::any_of(
           found.begin(), found.end(), [](const auto& n) { return n && n->part != ColumnPart::kFrequency; });
-      if (known == 0 || !beyond_frequency || found.size() < 3) continue;
+      if (known <= most || !beyond_frequency || found.size() < 3) continue;
+      most = known;
       names = std::move(found);
       names_row = i - 1;
     }
@@ -223,8 +225,10 @@ class ColumnReader {
       if (column != kNoColumn) entry.columns = {kNoColumn, kNoColumn};
       entry.polar = polar;
       entry.columns[second ? 1 : 0] = i;
-      entry.decibel = name.part == ColumnPart::kDecibel || (second && entry.decibel);
       const std::string unit = lower(name.unit);
+      // A unit row may say dB too.
+      entry.decibel =
+          name.part == ColumnPart::kDecibel || (second ? entry.decibel : polar && unit.starts_with("db"));
       if (name.part == ColumnPart::kPhase) {
         if (unit.starts_with("rad")) entry.radians = true;
         if (unit.starts_with("deg") || unit == "\xC2\xB0" || unit == "\xB0") entry.radians = false;

@@ -160,5 +160,6 @@ TEST_CASE("decibels of a unit, units in names, names in German") {
   CHECK(is(read("f,Magnitude (dB um/N),Phase (deg)\n1,20,0\n"), 1e-5));
   CHECK(is(read("f_hz,re_um_per_n,im_um_per_n\n1,2,3\n"), Complex(2e-6, 3e-6)));
   CHECK(read("f_hz,re_m_per_s2_per_n,im_m_per_s2_per_n\n1,2,3\n").quantity == Quantity::kAccelerance);
+  CHECK(is(read("f,Magnitude,Phase\nHz,dB,deg\n1,20,0\n"), 10));
   CHECK(is(read("Frequenz;Imagin\xC3\xA4rteil;Realteil\n1;3;2\n"), Complex(2, 3)));
 }
