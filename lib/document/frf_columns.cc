@@ -43,12 +43,14 @@ bool is_no_number(const std::string& field) {
          text.starts_with("#");
 }
 
-// The unit at the end of a row: its last field, or the last fields together.
+// The unit at the end of a row: its last field, or the last few together.
 std::optional<FrfUnit> unit_at_end(const TableRow& row) {
+  constexpr std::size_t kMostFields = 8;
   std::string text;
-  for (std::size_t i = row.fields.size(); i > 0; --i) {
-    if (is_number(row.fields[i - 1])) break;
-    text = row.fields[i - 1] + (text.empty() ? "" : " " + text);
+  for (std::size_t count = 1; count <= std::min(kMostFields, row.fields.size()); ++count) {
+    const std::string& field = row.fields[row.fields.size() - count];
+    if (is_number(field)) break;
+    text = field + (text.empty() ? "" : " " + text);
     if (const auto unit = frf_unit(text)) return unit;
   }
   return std::nullopt;
