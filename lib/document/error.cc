@@ -58,6 +58,11 @@ std::string line_place(long line) { return "line " + std::to_string(line); }
 
 std::string short_number(double value) { return printed("%g", value); }
 
+std::string lines_text(const Eigen::VectorXd& frequency_hz) {
+  return std::to_string(frequency_hz.size()) + " lines from " + short_number(frequency_hz[0]) + " to " +
+         short_number(frequency_hz[frequency_hz.size() - 1]) + " Hz";
+}
+
 std::string shown(std::string value) {
   constexpr std::size_t kLongest = 60;
   if (value.size() > kLongest) {

@@ -1,6 +1,7 @@
 // What is wrong with a document, and where.
 #pragma once
 
+#include <Eigen/Core>
 #include <stdexcept>
 #include <string>
 
@@ -21,6 +22,9 @@ std::string line_place(long line);
 
 /// A number for a message: six digits.
 std::string short_number(double value);
+
+/// `12 lines from 100 to 155 Hz`, of frequencies in Hz, at least one.
+std::string lines_text(const Eigen::VectorXd& frequency_hz);
 
 /// A value for a message: on one line, control characters and bytes that are not UTF-8
 /// replaced, shortened when long.

@@ -48,10 +48,7 @@ std::optional<double> take_number(std::string_view& text) {
     std::erase_if(word, [](char c) { return c == '+' || c == '-'; });
     word = lower(std::move(word));
     const bool stars = !word.empty() && word.find_first_not_of('*') == std::string::npos;
-    if (!stars && !word.starts_with("nan") && !word.starts_with("inf") && !word.starts_with("1.#") &&
-        !word.starts_with("-1.#")) {
-      return std::nullopt;
-    }
+    if (!stars && !word.starts_with("nan") && !word.starts_with("inf")) return std::nullopt;
     text.remove_prefix(end);
     return kNotANumber;
   }

@@ -16,11 +16,6 @@ constexpr std::array<std::pair<const char*, FrfForm>, 4> kForms = {{{"json", Frf
                                                                     {"csv", FrfForm::kColumns},
                                                                     {"frf", FrfForm::kCutPro}}};
 
-std::string lines_of(const FrequencyResponse& frf) {
-  return std::to_string(frf.frequency_hz.size()) + " lines from " + short_number(frf.frequency_hz[0]) +
-         " to " + short_number(frf.frequency_hz[frf.frequency_hz.size() - 1]) + " Hz";
-}
-
 }  // namespace
 
 std::optional<FrfForm> frf_form_from_name(const std::string& name) {
@@ -107,7 +102,8 @@ FrequencyResponse import_frf_parts(const std::vector<FrfPart>& parts, const FrfC
       throw DataError(name, "", quantity_name(frf.quantity),
                       std::string("expected ") + quantity_name(all.quantity) + ", as in the first file");
     if (!same_values(frf.frequency_hz, all.frequency_hz))
-      throw DataError(name, "", lines_of(frf), "expected the lines of the first file, " + lines_of(all));
+      throw DataError(name, "", lines_text(frf.frequency_hz),
+                      "expected the lines of the first file, " + lines_text(all.frequency_hz));
     for (const auto& other : all.entries) {
       if (other.same_places(entry))
         throw DataError(name, "", entry.response + entry.reference, "expected each pair of directions once");

@@ -277,9 +277,7 @@ class Collector {
     if (lines.size() == known.size() &&
         (lines - known).cwiseAbs().maxCoeff() <= kSameLines * known[known.size() - 1])
       return;
-    throw DataError(source_.name, function.place(7),
-                    std::to_string(lines.size()) + " lines from " + short_number(lines[0]) + " to " +
-                        short_number(lines[lines.size() - 1]) + " Hz",
+    throw DataError(source_.name, function.place(7), lines_text(lines),
                     "expected the " + std::to_string(known.size()) +
                         " lines of the functions before (--functions LIST takes some of them)");
   }

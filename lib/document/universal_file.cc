@@ -51,7 +51,6 @@ class LineReader {
     if (rest_.starts_with("\xEF\xBB\xBF")) rest_.remove_prefix(3);  // a byte-order mark
   }
 
-  bool at_end() const { return rest_.empty(); }
   long line() const { return line_; }  // of the line that next() gave last
 
   std::optional<std::string_view> next() {
@@ -405,7 +404,6 @@ UniversalUnits read_units(const Source& source, LineReader& lines) {
                     "expected the factors of length and force in dataset 164, above 0");
   };
   if (!second) fail(first ? *first : "end of the file");
-  units.description = name_of(columns(*first, 11, 30));
   std::string_view rest = *second;
   for (double* factor : {&units.length_factor, &units.force_factor}) {
     while (!rest.empty() && is_blank(rest.front())) rest.remove_prefix(1);

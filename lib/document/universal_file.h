@@ -29,15 +29,10 @@ struct UniversalPlace {
   std::string entity;
   int node = 0;
   int direction = 0;
-
-  bool operator==(const UniversalPlace& other) const {
-    return node == other.node && direction == other.direction;
-  }
 };
 
 /// Dataset 164: numbers in the file over these factors are in SI.
 struct UniversalUnits {
-  std::string description;
   double length_factor = 1;
   double force_factor = 1;
 };

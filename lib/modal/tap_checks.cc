@@ -1,7 +1,6 @@
 #include "modal/tap_checks.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
 #include <optional>
@@ -184,6 +183,7 @@ class TapChecks {
 
   // Driving points tell most; other entries only where there is none.
   void low_end() {
+    std::string worst;
     const bool any_driving = std::any_of(channels_.begin(), channels_.end(),
                                          [](const Channel& c) { return c.driving_point && !c.dead; });
     for (const Channel& channel : channels_) {
@@ -191,10 +191,10 @@ class TapChecks {
       const auto up_to = ruined_up_to(channel);
       if (!up_to || *up_to <= usable_from_) continue;
       usable_from_ = *up_to;
-      worst_ = name_of(*channel.entry);
+      worst = name_of(*channel.entry);
     }
     if (usable_from_ == 0) return;
-    say("below " + number(usable_from_) + " Hz " + worst_ +
+    say("below " + number(usable_from_) + " Hz " + worst +
         " rises towards 0 Hz as no structure does (noise, or an imaginary part above 0): what integration "
         "makes of drift; modes found there are none (--band)");
   }
@@ -387,7 +387,6 @@ class TapChecks {
   const bool zeros_are_dead_;
   std::vector<Channel> channels_;
   double usable_from_ = 0;
-  std::string worst_;
   std::vector<std::string> findings_;
 };
 
