@@ -11,11 +11,11 @@
 #include "cli/exit_status.h"
 #include "cli/progress_bar.h"
 #include "cli/tool.h"
-#include "document/error.h"
-#include "document/joint_stiffness.h"
-#include "document/pose.h"
-#include "document/pose_list.h"
-#include "document/robot.h"
+#include "document/kinds/joint_stiffness_json.h"
+#include "document/kinds/pose_json.h"
+#include "document/kinds/pose_list_json.h"
+#include "document/kinds/robot_json.h"
+#include "document/text/error.h"
 
 namespace stablecut {
 namespace {
@@ -32,11 +32,12 @@ constexpr int kMostTurns = 3600;
 class BestPose : public cli::Tool {
  public:
   BestPose()
-      : Tool("best-pose",
-             "The stiffest joint angles of a milling robot over a plane, the redundancy about the tool axis "
-             "and all "
-             "branches, from its joint stiffness.",
-             "pose") {}
+      : cli::Tool(
+            "best-pose",
+            "The stiffest joint angles of a milling robot over a plane, the redundancy about the tool axis "
+            "and all "
+            "branches, from its joint stiffness.",
+            "pose") {}
 
  private:
   using Vector = std::optional<std::array<double, 3>>;
@@ -87,18 +88,19 @@ class BestPose : public cli::Tool {
     if (evaluate && !map_path_.empty()) throw usage("--map: expected a search, not --evaluate");
     if (!evaluate && !height_mm_ && !plane_origin_)
       throw usage("--height: missing: expected the height of the plane, mm");
-    const StiffnessTask stiffness = stiffness_task();
-    const PlaneDocument plane = plane_document();
-    const cli::Input robot_input = read_input(robot_path_, cli::InputForm::kJson);
-    const Robot robot = robot_from_json(robot_input.document, robot_input.source);
-    const cli::Input input = read_main_input(cli::InputForm::kJson);
-    const JointStiffness joints =
-        complete(joint_stiffness_from_json(input.document, input.source), input.source, robot);
-    PoseDocument document;
+    const robot::StiffnessTask stiffness = stiffness_task();
+    const document::PlaneDocument plane = plane_document();
+    const document::Input robot_input = read_input(robot_path_, cli::InputForm::kJson);
+    const robot::Robot robot = document::robot_from_json(robot_input.document, robot_input.source);
+    const document::Input input = read_main_input(cli::InputForm::kJson);
+    const robot::JointStiffness joints =
+        complete(document::joint_stiffness_from_json(input.document, input.source), input.source, robot);
+    document::PoseDocument document;
     document.task = stiffness;
     document.covariance = joints.compliance_covariance;
-    JointAngles compliance;
-    for (int j = 0; j < kJoints; ++j) compliance[j] = 1 / *joints.stiffness[static_cast<std::size_t>(j)];
+    robot::JointAngles compliance;
+    for (int j = 0; j < robot::kJoints; ++j)
+      compliance[j] = 1 / *joints.stiffness[static_cast<std::size_t>(j)];
     if (evaluate)
       score_poses(robot, compliance, document);
     else
@@ -116,11 +118,11 @@ class BestPose : public cli::Tool {
     assumed_.emplace_back(text.substr(0, equals), *value);
   }
 
-  StiffnessTask stiffness_task() const {
-    StiffnessTask task;
-    if (index_ == "weakest") task.index = StiffnessIndex::kWeakest;
-    if (index_ == "axial") task.index = StiffnessIndex::kAxial;
-    if (index_ == "deflection") task.index = StiffnessIndex::kDeflection;
+  robot::StiffnessTask stiffness_task() const {
+    robot::StiffnessTask task;
+    if (index_ == "weakest") task.index = robot::StiffnessIndex::kWeakest;
+    if (index_ == "axial") task.index = robot::StiffnessIndex::kAxial;
+    if (index_ == "deflection") task.index = robot::StiffnessIndex::kDeflection;
     if (force_) {
       task.force_n = Eigen::Vector3d(force_->data());
       if (task.force_n->isZero(0)) throw usage("--force: 0,0,0: expected a force that is not zero");
@@ -128,7 +130,7 @@ class BestPose : public cli::Tool {
         throw usage("--force: expected components below 1e9 N");
       }
     }
-    if (task.index == StiffnessIndex::kDeflection && !force_) {
+    if (task.index == robot::StiffnessIndex::kDeflection && !force_) {
       throw usage("--force: missing: expected a force for the index deflection");
     }
     if (!force_frame_.empty() && !force_) throw usage("--force-frame: expected with --force only");
@@ -144,8 +146,8 @@ class BestPose : public cli::Tool {
     return v.stableNormalized();
   }
 
-  PlaneDocument plane_document() const {
-    PlaneDocument document;
+  document::PlaneDocument plane_document() const {
+    document::PlaneDocument document;
     document.height_mm = height_mm_;
     if (height_mm_) {
       if (plane_origin_ || plane_x_ || plane_y_)
@@ -165,14 +167,15 @@ class BestPose : public cli::Tool {
   }
 
   // Every joint needs a stiffness: the document's, or an assumed one where it has none.
-  JointStiffness complete(JointStiffness joints, const Source& source, const Robot& robot) const {
+  robot::JointStiffness complete(robot::JointStiffness joints, const document::Source& source,
+                                 const robot::Robot& robot) const {
     for (const auto& [name, value] : assumed_) {
       const auto joint =
           std::find_if(robot.joints.begin(), robot.joints.end(),
-                       [&name = name](const Joint& candidate) { return candidate.name == name; });
+                       [&name = name](const robot::Joint& candidate) { return candidate.name == name; });
       if (joint == robot.joints.end()) {
         std::string names;
-        for (const Joint& known : robot.joints) names += (names.empty() ? "" : ", ") + known.name;
+        for (const robot::Joint& known : robot.joints) names += (names.empty() ? "" : ", ") + known.name;
         throw usage("--assume: " + name + ": expected one of " + names);
       }
       auto& stiffness = joints.stiffness[static_cast<std::size_t>(joint - robot.joints.begin())];
@@ -182,18 +185,18 @@ class BestPose : public cli::Tool {
       stiffness = value;
     }
     std::string missing, option;
-    std::size_t first = kJoints;
-    for (std::size_t j = 0; j < kJoints; ++j) {
+    std::size_t first = robot::kJoints;
+    for (std::size_t j = 0; j < robot::kJoints; ++j) {
       if (joints.stiffness[j]) continue;
-      if (first == kJoints) first = j;
+      if (first == robot::kJoints) first = j;
       missing += (missing.empty() ? "" : ", ") + robot.joints[j].name;
       option += " --assume " + robot.joints[j].name + "=K";
     }
-    if (first < kJoints) {
+    if (first < robot::kJoints) {
       std::string text =
           source.name + ": /stiffness_n_m_per_rad/" + std::to_string(first) + ": null: " + missing +
           " not identified: expected a stiffness for every joint; give what you know of it with" + option;
-      if (missing == robot.joints[kJoints - 1].name && tool_alignment(robot).point_on_axis) {
+      if (missing == robot.joints[robot::kJoints - 1].name && robot::tool_alignment(robot).point_on_axis) {
         text += " (any K: the tool point lies on this joint's axis, so it does not change the answer)";
       }
       throw NoAnswer(text);
@@ -209,16 +212,17 @@ class BestPose : public cli::Tool {
             1 + static_cast<int>(std::lround((to - from) / kDefaultStepMm))};
   }
 
-  PoseTask pose_task(const Robot& robot, const JointAngles& compliance, const PlaneDocument& plane,
-                     const StiffnessTask& stiffness) const {
-    PoseTask task;
+  robot::PoseTask pose_task(const robot::Robot& robot, const robot::JointAngles& compliance,
+                            const document::PlaneDocument& plane,
+                            const robot::StiffnessTask& stiffness) const {
+    robot::PoseTask task;
     task.plane = plane.plane;
     task.tool_axis = direction(tool_axis_, task.tool_axis, "--tool-axis");
     task.stiffness = stiffness;
     task.joint_compliance = compliance;
     task.limit_margin_rad = radians_from_degrees(limit_margin_deg_.value_or(kDefaultLimitMarginDeg));
     task.singularity_margin = singularity_margin_.value_or(kDefaultSingularityMargin);
-    const auto reach = plane_reach(robot, task.plane, task.tool_axis);
+    const auto reach = robot::plane_reach(robot, task.plane, task.tool_axis);
     task.x = span(x_, reach.x);
     task.y = span(y_, reach.y);
     if (static_cast<double>(task.x.count) * task.y.count > kMostPoints) {
@@ -233,24 +237,25 @@ class BestPose : public cli::Tool {
     return task;
   }
 
-  void search(const Robot& robot, const Source& robot_source, const JointAngles& compliance,
-              const PlaneDocument& plane, PoseDocument& document) {
-    if (const auto bad = unsupported_geometry(robot)) {
-      throw DataError(robot_source.name, "/joints/" + std::to_string(bad->joint) + "/" + bad->field,
-                      Json(bad->value).dump(),
-                      std::string("expected ") + bad->expected +
-                          ": a search needs its inverse kinematics (--evaluate does not)");
+  void search(const robot::Robot& robot, const document::Source& robot_source,
+              const robot::JointAngles& compliance, const document::PlaneDocument& plane,
+              document::PoseDocument& document) {
+    if (const auto bad = robot::unsupported_geometry(robot)) {
+      throw document::DataError(robot_source.name, "/joints/" + std::to_string(bad->joint) + "/" + bad->field,
+                                document::Json(bad->value).dump(),
+                                std::string("expected ") + bad->expected +
+                                    ": a search needs its inverse kinematics (--evaluate does not)");
     }
-    const PoseTask task = pose_task(robot, compliance, plane, document.task);
+    const robot::PoseTask task = pose_task(robot, compliance, plane, document.task);
     document.plane = plane;
-    std::optional<PlaneScan> scan;
+    std::optional<robot::PlaneScan> scan;
     if (!map_path_.empty()) {
       cli::ProgressBar bar("best-pose: map", !quiet());
-      scan = scan_plane(robot, task, threads(), [&](double share) { bar.show(share); });
+      scan = robot::scan_plane(robot, task, threads(), [&](double share) { bar.show(share); });
     }
     {
       cli::ProgressBar bar("best-pose: plane", !quiet());
-      document.search = search_poses(
+      document.search = robot::search_poses(
           robot, task, alternatives_.value_or(kDefaultAlternatives), threads(),
           [&](double share) { bar.show(share); }, scan ? &*scan : nullptr);
     }
@@ -258,23 +263,26 @@ class BestPose : public cli::Tool {
       warn("--redundancy: the tool is coaxial with joint " + robot.joints.back().name +
            ", which alone turns it: no redundancy angle can change the index " + index_name());
     }
-    const auto report = [&](const FoundPose& found) {
+    const auto report = [&](const robot::FoundPose& found) {
       document.reports.push_back(
-          report_pose(robot, found.angles, document.task, compliance, document.covariance));
+          robot::report_pose(robot, found.angles, document.task, compliance, document.covariance));
     };
     report(document.search.best);
-    for (const FoundPose& found : document.search.alternatives) report(found);
-    document.sweep = redundancy_sweep(robot, task, document.search.best.at.x, document.search.best.at.y);
-    write_document(main_output(), pose_to_json(document, robot));
-    if (scan) write_document(map_path_, pose_map_to_json(pose_map(robot, *scan), task, plane));
+    for (const robot::FoundPose& found : document.search.alternatives) report(found);
+    document.sweep =
+        robot::redundancy_sweep(robot, task, document.search.best.at.x, document.search.best.at.y);
+    write_document(main_output(), document::pose_to_json(document, robot));
+    if (scan)
+      write_document(map_path_, document::pose_map_to_json(robot::pose_map(robot, *scan), task, plane));
   }
 
-  void score_poses(const Robot& robot, const JointAngles& compliance, PoseDocument& document) {
-    const cli::Input input = read_input(evaluate_path_, cli::InputForm::kJson);
-    for (const JointAngles& angles : pose_list_from_json(input.document, input.source)) {
+  void score_poses(const robot::Robot& robot, const robot::JointAngles& compliance,
+                   document::PoseDocument& document) {
+    const document::Input input = read_input(evaluate_path_, cli::InputForm::kJson);
+    for (const robot::JointAngles& angles : document::pose_list_from_json(input.document, input.source)) {
       document.evaluated.push_back(
-          report_pose(robot, angles, document.task, compliance, document.covariance));
-      const PoseReport& report = document.evaluated.back();
+          robot::report_pose(robot, angles, document.task, compliance, document.covariance));
+      const robot::PoseReport& report = document.evaluated.back();
       if (std::isnan(report.score)) {
         warn(input.source.name + ": /poses/" + std::to_string(document.evaluated.size() - 1) +
              ": a singular pose: the arm cannot yield in a direction that the index looks at, so there is no "
@@ -288,7 +296,7 @@ class BestPose : public cli::Tool {
              "/joints_deg: " + text);
       }
     }
-    write_document(main_output(), evaluation_to_json(document));
+    write_document(main_output(), document::evaluation_to_json(document));
   }
 
   std::string index_name() const { return index_.empty() ? "combined" : index_; }

@@ -15,7 +15,7 @@
 #include <string>
 
 #include "base/parallel.h"
-#include "document/modal_table.h"
+#include "document/kinds/modal_table_json.h"
 #include "dynamics/synthesis.h"
 #include "modal/fit.h"
 #include "modal/fit_data.h"
@@ -39,31 +39,31 @@ class Random {
 };
 
 // Random vectors; modes of equal static compliance.
-Mode random_mode(double frequency_hz, double damping_ratio, Random& random) {
-  Mode mode;
+dynamics::Mode random_mode(double frequency_hz, double damping_ratio, Random& random) {
+  dynamics::Mode mode;
   mode.frequency_hz = frequency_hz;
   mode.damping_ratio = damping_ratio;
   const double scale = std::sqrt(6.283185307179586 * frequency_hz * 1e-7);
   mode.psi_r = scale * Eigen::Vector2cd(random.normal(), random.normal());
   mode.psi_l = scale * Eigen::Vector2cd(random.normal(), random.normal());
-  return normalised(mode);
+  return dynamics::normalised(mode);
 }
 
 // Two close pairs and two heavily damped modes among others.
-ModalModel hard_case(std::uint64_t seed) {
+dynamics::ModalModel hard_case(std::uint64_t seed) {
   constexpr double kPoles[][2] = {{120, 0.01},  {121.8, 0.012}, {260, 0.12}, {430, 0.03},
                                   {640, 0.008}, {648, 0.01},    {905, 0.2},  {1400, 0.02}};
   Random random(seed);
-  ModalModel model;
+  dynamics::ModalModel model;
   model.dofs = {"x", "y"};
   for (const auto& pole : kPoles) model.modes.push_back(random_mode(pole[0], pole[1], random));
   return model;
 }
 
 // 1 to 30 modes anywhere, damped by 0.3 to 20 %.
-ModalModel any_case(std::uint64_t seed) {
+dynamics::ModalModel any_case(std::uint64_t seed) {
   Random random(seed);
-  ModalModel model;
+  dynamics::ModalModel model;
   model.dofs = {"x", "y"};
   const double count = 1 + std::floor(30 * random.uniform());
   for (int k = 0; k < count; ++k) {
@@ -71,13 +71,13 @@ ModalModel any_case(std::uint64_t seed) {
     model.modes.push_back(random_mode(frequency_hz, 0.003 * std::pow(67, random.uniform()), random));
   }
   std::sort(model.modes.begin(), model.modes.end(),
-            [](const Mode& a, const Mode& b) { return a.frequency_hz < b.frequency_hz; });
+            [](const dynamics::Mode& a, const dynamics::Mode& b) { return a.frequency_hz < b.frequency_hz; });
   return model;
 }
 
 struct Case {
   const char* name;
-  std::function<ModalModel(std::uint64_t)> truth;  // by seed
+  std::function<dynamics::ModalModel(std::uint64_t)> truth;  // by seed
   Eigen::VectorXd lines_hz;
   std::optional<double> relative_db, floor_db;
 };
@@ -92,11 +92,12 @@ struct Outcome {
 };
 
 // The curves of exact receptances, weighted by the noise's true variance.
-FitData exact_data(const ModalModel& truth, const Case& c, const FrequencyResponse& noisy) {
-  FitData data;
+modal::FitData exact_data(const dynamics::ModalModel& truth, const Case& c,
+                          const dynamics::FrequencyResponse& noisy) {
+  modal::FitData data;
   data.s = Complex(0, 6.283185307179586) * c.lines_hz.cast<Complex>();
   data.dofs = 2;
-  const FrequencyResponse exact = synthesize(truth, c.lines_hz);
+  const dynamics::FrequencyResponse exact = dynamics::synthesize(truth, c.lines_hz);
   for (std::size_t e = 0; e < exact.entries.size(); ++e) {
     data.curves.push_back({truth.dof(exact.entries[e].response), truth.dof(exact.entries[e].reference),
                            exact.entries[e].h, noisy.entries[e].variance.cwiseInverse()});
@@ -104,7 +105,7 @@ FitData exact_data(const ModalModel& truth, const Case& c, const FrequencyRespon
   return data;
 }
 
-Eigen::VectorXd parameters_of(const Mode& mode) {
+Eigen::VectorXd parameters_of(const dynamics::Mode& mode) {
   Eigen::VectorXd p(10);
   p << mode.frequency_hz, mode.damping_ratio, mode.psi_r[0].real(), mode.psi_r[0].imag(),
       mode.psi_r[1].real(), mode.psi_r[1].imag(), mode.psi_l[0].real(), mode.psi_l[0].imag(),
@@ -113,22 +114,22 @@ Eigen::VectorXd parameters_of(const Mode& mode) {
 }
 
 Outcome run(const Case& c, std::uint64_t seed) {
-  const ModalModel truth = c.truth(seed);
-  FrequencyResponse measured = synthesize(truth, c.lines_hz);
-  add_noise(measured, {c.relative_db, c.floor_db, seed});
-  const FittedTable bound =
-      fitted_table(exact_data(truth, c, measured), truth.modes, ModeModel::kNonsymmetric);
+  const dynamics::ModalModel truth = c.truth(seed);
+  dynamics::FrequencyResponse measured = dynamics::synthesize(truth, c.lines_hz);
+  dynamics::add_noise(measured, {c.relative_db, c.floor_db, seed});
+  const modal::FittedTable bound =
+      modal::fitted_table(exact_data(truth, c, measured), truth.modes, modal::ModeModel::kNonsymmetric);
   for (auto& entry : measured.entries) entry.variance.resize(0);
   Outcome outcome;
   const auto start = std::chrono::steady_clock::now();
-  const ModalFit fit = fit_modes(measured);
+  const modal::ModalFit fit = modal::fit_modes(measured);
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   outcome.modes = fit.model.modes.size();
   outcome.wanted = truth.modes.size();
   outcome.resolvable = true;
   std::vector<bool> taken(fit.model.modes.size());
   for (std::size_t k = 0; k < truth.modes.size(); ++k) {
-    const Mode mode = normalised(truth.modes[k]);
+    const dynamics::Mode mode = dynamics::normalised(truth.modes[k]);
     const Complex lambda = mode.pole();
     // Frequency and damping move the pole at right angles.
     const auto at = static_cast<Eigen::Index>(10 * k);
@@ -163,8 +164,8 @@ Outcome run(const Case& c, std::uint64_t seed) {
 int main(int argc, char** argv) {
   if (argc < 2) return 64;
   std::ifstream file(argv[1]);
-  const Source source{argv[1], std::string(std::istreambuf_iterator<char>(file), {})};
-  const ModalModel thesis = modal_table_from_json(parse_json(source), source);
+  const document::Source source{argv[1], std::string(std::istreambuf_iterator<char>(file), {})};
+  const dynamics::ModalModel thesis = document::modal_table_from_json(document::parse_json(source), source);
   const auto seeds = static_cast<std::size_t>(argc > 2 ? std::atoi(argv[2]) : 50);
   const Eigen::VectorXd thesis_lines = Eigen::VectorXd::LinSpaced(3993, 2, 1000);
   const Eigen::VectorXd hard_lines = Eigen::VectorXd::LinSpaced(2048, 1, 2000);

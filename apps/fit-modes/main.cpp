@@ -9,10 +9,10 @@
 #include "cli/exit_status.h"
 #include "cli/progress_bar.h"
 #include "cli/tool.h"
-#include "document/error.h"
-#include "document/frf.h"
-#include "document/frf_uff.h"
-#include "document/modal_table.h"
+#include "document/kinds/frf_json.h"
+#include "document/kinds/modal_table_json.h"
+#include "document/measured/frf_uff.h"
+#include "document/text/error.h"
 #include "dynamics/synthesis.h"
 #include "measurement.h"
 #include "modal/fit.h"
@@ -27,11 +27,11 @@ constexpr int kHighestOrder = 40;  // of the stabilization diagram, pole pairs
 class FitModes : public cli::Tool {
  public:
   FitModes()
-      : Tool("fit-modes",
-             "Modes of the tool tip from measured frequency responses, nothing guessed by hand; with "
-             "--synthesize the "
-             "frequency responses of a modal table.",
-             "modal-table") {}
+      : cli::Tool("fit-modes",
+                  "Modes of the tool tip from measured frequency responses, nothing guessed by hand; with "
+                  "--synthesize the "
+                  "frequency responses of a modal table.",
+                  "modal-table") {}
 
  private:
   void setup(CLI::App& app) override {
@@ -117,14 +117,14 @@ class FitModes : public cli::Tool {
   void synthesize_table() {
     if (synthesize_->from < 0)
       throw cli::Failure(cli::ExitStatus::kUsage, "--synthesize: expected frequencies not below 0 Hz");
-    const cli::Input input = read_main_input(cli::InputForm::kJson);
+    const document::Input input = read_main_input(cli::InputForm::kJson);
     input_name_ = input.source.name;
-    const ModalModel model = modal_table_from_json(input.document, input.source);
+    const dynamics::ModalModel model = document::modal_table_from_json(input.document, input.source);
     const std::vector<double> lines = synthesize_->values();
-    FrequencyResponse frf = synthesize(
+    dynamics::FrequencyResponse frf = dynamics::synthesize(
         model, Eigen::Map<const Eigen::VectorXd>(lines.data(), static_cast<Eigen::Index>(lines.size())));
     if (noise_db_ || noise_floor_db_) {
-      add_noise(frf, {noise_db_, noise_floor_db_, static_cast<std::uint64_t>(seed_.value_or(1))});
+      dynamics::add_noise(frf, {noise_db_, noise_floor_db_, static_cast<std::uint64_t>(seed_.value_or(1))});
       if (no_variance_) {
         for (auto& entry : frf.entries) entry.variance.resize(0);
       }
@@ -133,7 +133,7 @@ class FitModes : public cli::Tool {
   }
 
   // A frf document says how many averages are behind a coherence.
-  FrequencyResponse with_known_averages(FrequencyResponse frf) const {
+  dynamics::FrequencyResponse with_known_averages(dynamics::FrequencyResponse frf) const {
     bool lost = false;
     for (auto& entry : frf.entries) {
       if (entry.coherence.size() == 0 || entry.averages) continue;
@@ -144,51 +144,51 @@ class FitModes : public cli::Tool {
     return frf;
   }
 
-  void write_frf(const std::string& path, const FrequencyResponse& frf) {
+  void write_frf(const std::string& path, const dynamics::FrequencyResponse& frf) {
     if (!to_.starts_with("uff")) {
-      write_document(path, frf_to_json(frf));
+      write_document(path, document::frf_to_json(frf));
       return;
     }
     try {
-      write_text(path,
-                 frf_to_universal_file(frf, to_ == "uff" ? UniversalForm::kText : UniversalForm::kBinary));
+      write_text(path, document::frf_to_universal_file(frf, to_ == "uff" ? document::UniversalForm::kText
+                                                                         : document::UniversalForm::kBinary));
     } catch (const InvalidArgument& error) {
-      throw DataError(input_name_, "", "", error.what());
+      throw document::DataError(input_name_, "", "", error.what());
     }
   }
 
   void fit() {
-    const FrequencyResponse measured = read_receptance();
-    const TapReport report = check_tap(measured, zeros_are_dead_);
+    const dynamics::FrequencyResponse measured = read_receptance();
+    const modal::TapReport report = modal::check_tap(measured, zeros_are_dead_);
     for (const std::string& text : report.findings) warn(input_name_ + ": " + text);
-    const FrequencyResponse used = without_disturbed_lines(measured, report.disturbed_lines);
-    const ModalFit result = fit_measured(used);
+    const dynamics::FrequencyResponse used = without_disturbed_lines(measured, report.disturbed_lines);
+    const modal::ModalFit result = fit_measured(used);
     for (const std::string& text : result.warnings) warn(input_name_ + ": " + text);
 
-    const ModalModel table = table_of(result);
-    Json document = modal_table_to_json(table);
+    const dynamics::ModalModel table = table_of(result);
+    document::Json document = document::modal_table_to_json(table);
     document["fit"].update(fit_report(result, used));
     if (window_decay_per_s_ > 0) document["fit"]["window_decay_per_s"] = window_decay_per_s_;
     write_document(main_output(), std::move(document));
     if (!fitted_path_.empty()) {
       // Over the measurement, the window in it.
-      FrequencyResponse fitted = synthesize(result.model, measured.frequency_hz);
+      dynamics::FrequencyResponse fitted = dynamics::synthesize(result.model, measured.frequency_hz);
       std::erase_if(fitted.entries, [&](const auto& entry) {
         return measured.find(entry.response, entry.reference) == nullptr;
       });
-      write_document(fitted_path_, frf_to_json(fitted));
+      write_document(fitted_path_, document::frf_to_json(fitted));
     }
     if (!stabilization_path_.empty()) {
       cli::ProgressBar bar("fit-modes: orders", !quiet());
       const auto orders =
-          stabilization(result.data, kHighestOrder, threads(), [&](double share) { bar.show(share); });
+          modal::stabilization(result.data, kHighestOrder, threads(), [&](double share) { bar.show(share); });
       write_document(stabilization_path_, stabilization_to_json(orders, result, used));
     }
   }
 
   // A few lines that mains hum or a spur disturbs would become modes without width.
-  FrequencyResponse without_disturbed_lines(const FrequencyResponse& measured,
-                                            const std::vector<Eigen::Index>& lines) const {
+  dynamics::FrequencyResponse without_disturbed_lines(const dynamics::FrequencyResponse& measured,
+                                                      const std::vector<Eigen::Index>& lines) const {
     constexpr Eigen::Index kFew = 5;
     constexpr double kFewShare = 0.02;
     constexpr std::size_t kShown = 5;
@@ -197,44 +197,45 @@ class FitModes : public cli::Tool {
     if (lines.empty() || static_cast<Eigen::Index>(lines.size()) > most) return measured;
     std::string list;
     for (std::size_t i = 0; i < std::min(lines.size(), kShown); ++i)
-      list += (i == 0 ? "" : ", ") + short_number(measured.frequency_hz[lines[i]]);
+      list += (i == 0 ? "" : ", ") + document::short_number(measured.frequency_hz[lines[i]]);
     if (lines.size() > kShown) list += ", ...";
     warn(input_name_ + ": single lines stand out of their neighbours (" + std::to_string(lines.size()) +
          ": " + list + " Hz), as hum does: left out, since each would be taken for a mode");
-    return without_lines(measured, lines);
+    return dynamics::without_lines(measured, lines);
   }
 
-  ModalModel table_of(const ModalFit& result) const {
+  dynamics::ModalModel table_of(const modal::ModalFit& result) const {
     if (window_decay_per_s_ == 0) return result.model;
     try {
-      return without_window(result.model, window_decay_per_s_);
+      return dynamics::without_window(result.model, window_decay_per_s_);
     } catch (const NoAnswer& answer) {
       throw NoAnswer(input_name_ + ": " + answer.what());
     }
   }
 
-  std::optional<ModeModel> mode_model() const {
+  std::optional<modal::ModeModel> mode_model() const {
     if (model_ == "best") return std::nullopt;
     const auto name = std::find(kModelNames.begin(), kModelNames.end(), model_);
-    return name == kModelNames.end() ? ModeModel::kNonsymmetric
-                                     : static_cast<ModeModel>(name - kModelNames.begin());
+    return name == kModelNames.end() ? modal::ModeModel::kNonsymmetric
+                                     : static_cast<modal::ModeModel>(name - kModelNames.begin());
   }
 
   // Failures with the input's name before them.
-  ModalFit fit_measured(const FrequencyResponse& measured) const {
+  modal::ModalFit fit_measured(const dynamics::FrequencyResponse& measured) const {
     try {
       cli::ProgressBar bar("fit-modes", !quiet());
-      ModalFit result = fit_modes(measured, {modes_, mode_model(), [&](double share) { bar.show(share); }});
+      modal::ModalFit result =
+          modal::fit_modes(measured, {modes_, mode_model(), [&](double share) { bar.show(share); }});
       if (!result.converged) throw NoAnswer("the fit did not converge");
       return result;
     } catch (const InvalidArgument& error) {
-      throw DataError(input_name_, "", "", error.what());
+      throw document::DataError(input_name_, "", "", error.what());
     } catch (const NoAnswer& answer) {
       throw NoAnswer(input_name_ + ": " + answer.what());
     }
   }
 
-  FrequencyResponse read_measurement() {
+  dynamics::FrequencyResponse read_measurement() {
     Measurement measured = measurement_.read(
         main_input(),
         [this](const std::string& path, cli::InputForm form) { return read_input(path, form); });
@@ -245,23 +246,24 @@ class FitModes : public cli::Tool {
   }
 
   // The measurement as a receptance, without a line at 0 Hz, and what it shows about itself.
-  FrequencyResponse read_receptance() {
-    FrequencyResponse frf = read_measurement();
+  dynamics::FrequencyResponse read_receptance() {
+    dynamics::FrequencyResponse frf = read_measurement();
     for (std::size_t e = 0; e < frf.entries.size(); ++e) {
       if (frf.find(frf.entries[e].response, frf.entries[e].reference) != &frf.entries[e]) {
-        throw DataError(input_name_, "/h/" + std::to_string(e),
-                        frf.entries[e].response + frf.entries[e].reference,
-                        "measured at another position too: expected each pair of directions once");
+        throw document::DataError(input_name_, "/h/" + std::to_string(e),
+                                  frf.entries[e].response + frf.entries[e].reference,
+                                  "measured at another position too: expected each pair of directions once");
       }
     }
     // Nothing is learnt at 0 Hz, and inertance and mobility cannot be converted there.
     if (frf.frequency_hz[0] == 0) {
-      frf = within_band(frf, std::numeric_limits<double>::min(), std::numeric_limits<double>::max());
+      frf =
+          dynamics::within_band(frf, std::numeric_limits<double>::min(), std::numeric_limits<double>::max());
       if (frf.frequency_hz.size() == 0)
-        throw DataError(input_name_, "", "", "no lines in the band: expected some above 0 Hz");
+        throw document::DataError(input_name_, "", "", "no lines in the band: expected some above 0 Hz");
       warn(input_name_ + ": the line at 0 Hz is left out: it tells nothing of a vibration");
     }
-    frf = to_receptance(std::move(frf), window_decay_per_s_);
+    frf = dynamics::to_receptance(std::move(frf), window_decay_per_s_);
     return frf;
   }
 

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "cli/exit_status.h"
-#include "document/error.h"
-#include "document/frf.h"
+#include "document/kinds/frf_json.h"
+#include "document/text/error.h"
 
 namespace stablecut {
 
@@ -40,7 +40,7 @@ void MeasurementOptions::declare(CLI::App& app) {
 
 void MeasurementOptions::take_entry(const std::string& text) {
   const auto equals = text.find('=');
-  auto part = equals == std::string::npos ? std::nullopt : frf_part_named(text.substr(0, equals));
+  auto part = equals == std::string::npos ? std::nullopt : document::frf_part_named(text.substr(0, equals));
   if (!part || equals + 1 == text.size())
     throw CLI::ValidationError(
         "--entry", text + ": expected DIRECTIONS=FILE, as xy=tap.csv (response x, force along y)");
@@ -49,54 +49,54 @@ void MeasurementOptions::take_entry(const std::string& text) {
 }
 
 // Options that the input's form has no use for are a mistake.
-void MeasurementOptions::check_form(const Input& input, const FrfChoice& choice) const {
-  const FrfForm form = frf_form_of(input, choice);
-  if (form != FrfForm::kUniversalFile && (!choice.functions.empty() || choice.node))
+void MeasurementOptions::check_form(const document::Input& input, const document::FrfChoice& choice) const {
+  const document::FrfForm form = document::frf_form_of(input, choice);
+  if (form != document::FrfForm::kUniversalFile && (!choice.functions.empty() || choice.node))
     throw cli::Failure(cli::ExitStatus::kUsage,
                        input.source.name + ": expected a universal file with --functions and --node");
-  if (form != FrfForm::kJson) return;
+  if (form != document::FrfForm::kJson) return;
   if (choice.unit || choice.averages)
     throw cli::Failure(
         cli::ExitStatus::kUsage,
         input.source.name +
             ": a frf document says its units and averages itself: expected no --unit, no --averages");
   if (!choice.quantity) return;
-  const Quantity told = frf_from_json(input.document, input.source).quantity;
+  const dynamics::Quantity told = document::frf_from_json(input.document, input.source).quantity;
   if (told != *choice.quantity) {
     throw cli::Failure(cli::ExitStatus::kUsage, "--quantity: " + quantity_ + ": expected " +
-                                                    quantity_name(told) + ", as the document says");
+                                                    document::quantity_name(told) + ", as the document says");
   }
 }
 
 Measurement MeasurementOptions::read(const std::string& main_input, const Reader& read_input) const {
-  FrfChoice choice = choice_;
-  choice.form = frf_form_from_name(from_);
-  if (!quantity_.empty()) choice.quantity = quantity_from_name(quantity_);
+  document::FrfChoice choice = choice_;
+  choice.form = document::frf_form_from_name(from_);
+  if (!quantity_.empty()) choice.quantity = document::quantity_from_name(quantity_);
   const auto form = from_.empty()     ? cli::InputForm::kByContent
                     : from_ == "json" ? cli::InputForm::kJson
                                       : cli::InputForm::kText;
   Measurement result;
   const auto checked = [&](const std::string& path) {
-    Input input = read_input(path, form);
+    document::Input input = read_input(path, form);
     check_form(input, choice);
     if (result.name.empty()) result.name = input.source.name;
-    result.is_document = frf_form_of(input, choice) == FrfForm::kJson;
+    result.is_document = document::frf_form_of(input, choice) == document::FrfForm::kJson;
     return input;
   };
   if (parts_.empty()) {
-    result.frf = import_frf(checked(main_input), choice, result.remarks);
+    result.frf = document::import_frf(checked(main_input), choice, result.remarks);
     for (std::string& remark : result.remarks) remark = result.name + ": " + remark;
   } else {
     if (main_input != "-")
       throw cli::Failure(cli::ExitStatus::kUsage, main_input + ": expected no other input with --entry");
-    std::vector<FrfPart> parts = parts_;
+    std::vector<document::FrfPart> parts = parts_;
     for (std::size_t i = 0; i < parts.size(); ++i) parts[i].input = checked(part_paths_[i]);
-    result.frf = import_frf_parts(parts, choice, result.remarks);
+    result.frf = document::import_frf_parts(parts, choice, result.remarks);
   }
   if (!band_) return result;
-  result.frf = within_band(result.frf, band_->from, band_->to);
+  result.frf = dynamics::within_band(result.frf, band_->from, band_->to);
   if (result.frf.frequency_hz.size() == 0)
-    throw DataError(result.name, "", "", "no lines in the band: expected some in --band");
+    throw document::DataError(result.name, "", "", "no lines in the band: expected some in --band");
   return result;
 }
 

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "cli/tool.h"
-#include "document/frf_import.h"
+#include "document/measured/frf_import.h"
 
 namespace stablecut {
 
 struct Measurement {
-  FrequencyResponse frf;             ///< in the band, in the quantity that was measured
+  dynamics::FrequencyResponse frf;   ///< in the band, in the quantity that was measured
   std::string name;                  ///< of the input, or of the first of several
   bool is_document = false;          ///< a frf document, in which zeros mean uncoupled
   std::vector<std::string> remarks;  ///< on how the files were read, each with its file's name
@@ -27,17 +27,17 @@ class MeasurementOptions {
 
   /// Reads `main_input` ("-" by default), or the files of --entry. Throws Failure for options that do not fit
   /// each other or the input, DataError for what the files hold.
-  using Reader = std::function<Input(const std::string& path, cli::InputForm form)>;
+  using Reader = std::function<document::Input(const std::string& path, cli::InputForm form)>;
   Measurement read(const std::string& main_input, const Reader& read_input) const;
 
  private:
   void take_entry(const std::string& text);
-  void check_form(const Input& input, const FrfChoice& choice) const;
+  void check_form(const document::Input& input, const document::FrfChoice& choice) const;
 
   std::string from_, quantity_;
-  FrfChoice choice_;
+  document::FrfChoice choice_;
   std::optional<Range> band_;
-  std::vector<FrfPart> parts_;
+  std::vector<document::FrfPart> parts_;
   std::vector<std::string> part_paths_;
   std::vector<CLI::Option*> declared_;
 };

@@ -2,26 +2,26 @@
 
 namespace stablecut {
 
-Json fit_report(const ModalFit& fit, const FrequencyResponse& measured) {
-  Json curves = Json::array();
-  for (const CurveFit& curve : fit.curves) {
+document::Json fit_report(const modal::ModalFit& fit, const dynamics::FrequencyResponse& measured) {
+  document::Json curves = document::Json::array();
+  for (const modal::CurveFit& curve : fit.curves) {
     curves.push_back({{"response", curve.response},
                       {"reference", curve.reference},
                       {"relative_error", curve.relative_error},
                       {"reduced_chi_square", curve.reduced_chi_square}});
   }
-  Json models = Json::array();
-  for (const ModelCriterion& criterion : fit.criteria) {
+  document::Json models = document::Json::array();
+  for (const modal::ModelCriterion& criterion : fit.criteria) {
     models.push_back({{"model", kModelNames[static_cast<std::size_t>(criterion.model)]},
                       {"modes", criterion.modes},
                       {"parameters", criterion.parameters},
                       {"chi_square", criterion.chi_square},
                       {"bic", criterion.bic}});
   }
-  Json report = {
+  document::Json report = {
       {"model", kModelNames[static_cast<std::size_t>(fit.mode_model)]},
-      {"band_hz",
-       Json::array({measured.frequency_hz[0], measured.frequency_hz[measured.frequency_hz.size() - 1]})},
+      {"band_hz", document::Json::array(
+                      {measured.frequency_hz[0], measured.frequency_hz[measured.frequency_hz.size() - 1]})},
       {"lines", measured.frequency_hz.size()},
       {"noise", fit.variance_given ? "given" : "estimated"},
       {"criterion", {{"name", "bic"}, {"inflation", fit.inflation}, {"models", std::move(models)}}},
@@ -34,26 +34,27 @@ Json fit_report(const ModalFit& fit, const FrequencyResponse& measured) {
   return report;
 }
 
-Json stabilization_to_json(const std::vector<StabilizationOrder>& orders, const ModalFit& fit,
-                           const FrequencyResponse& measured) {
+document::Json stabilization_to_json(const std::vector<modal::StabilizationOrder>& orders,
+                                     const modal::ModalFit& fit,
+                                     const dynamics::FrequencyResponse& measured) {
   constexpr const char* kStabilities[] = {"new", "frequency", "pole"};
-  Json diagram = Json::array();
-  for (const StabilizationOrder& order : orders) {
-    Json poles = Json::array();
-    for (const StabilizationPole& pole : order.poles) {
+  document::Json diagram = document::Json::array();
+  for (const modal::StabilizationOrder& order : orders) {
+    document::Json poles = document::Json::array();
+    for (const modal::StabilizationPole& pole : order.poles) {
       poles.push_back({{"frequency_hz", pole.frequency_hz},
                        {"damping_ratio", pole.damping_ratio},
                        {"stable", kStabilities[static_cast<std::size_t>(pole.stability)]}});
     }
     diagram.push_back({{"pole_pairs", order.order}, {"poles", std::move(poles)}});
   }
-  Json modes = Json::array();
-  for (const Mode& mode : fit.model.modes) {
+  document::Json modes = document::Json::array();
+  for (const dynamics::Mode& mode : fit.model.modes) {
     if (mode.out_of_band) continue;
     modes.push_back({{"frequency_hz", mode.frequency_hz}, {"damping_ratio", mode.damping_ratio}});
   }
-  const Eigen::MatrixXd indicator = mode_indicator(measured);
-  Json values = Json::array();
+  const Eigen::MatrixXd indicator = modal::mode_indicator(measured);
+  document::Json values = document::Json::array();
   for (const auto& column : indicator.colwise())
     values.push_back(std::vector<double>(column.begin(), column.end()));
   return {{"format", "stablecut/stabilization/1"},

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "document/json_text.h"
+#include "document/text/json_text.h"
 #include "dynamics/frequency_response.h"
 #include "modal/fit.h"
 #include "modal/stabilization.h"
@@ -16,10 +16,10 @@ namespace stablecut {
 inline constexpr std::array<std::string_view, 3> kModelNames = {"nonsymmetric", "symmetric", "proportional"};
 
 /// The fields of `fit` in a modal table, without the covariance.
-Json fit_report(const ModalFit& fit, const FrequencyResponse& measured);
+document::Json fit_report(const modal::ModalFit& fit, const dynamics::FrequencyResponse& measured);
 
 /// A document of kind `stabilization`, with the modes that were chosen.
-Json stabilization_to_json(const std::vector<StabilizationOrder>& orders, const ModalFit& fit,
-                           const FrequencyResponse& measured);
+document::Json stabilization_to_json(const std::vector<modal::StabilizationOrder>& orders,
+                                     const modal::ModalFit& fit, const dynamics::FrequencyResponse& measured);
 
 }  // namespace stablecut

@@ -9,11 +9,11 @@
 #include "base/error.h"
 #include "cli/exit_status.h"
 #include "cli/tool.h"
-#include "document/joint_stiffness.h"
-#include "document/load_samples.h"
-#include "document/measurement_plan.h"
-#include "document/pose_list.h"
-#include "document/robot.h"
+#include "document/kinds/joint_stiffness_json.h"
+#include "document/kinds/load_samples_json.h"
+#include "document/kinds/measurement_plan_json.h"
+#include "document/kinds/pose_list_json.h"
+#include "document/kinds/robot_json.h"
 
 namespace stablecut {
 namespace {
@@ -27,11 +27,12 @@ constexpr int kMostPlanned = 10'000;
 class JointStiffnessTool : public cli::Tool {
  public:
   JointStiffnessTool()
-      : Tool("joint-stiffness",
-             "Joint stiffness of a robot from loads and deflections at measured poses, with what the loads "
-             "cannot see "
-             "said so.",
-             "joint-stiffness") {}
+      : cli::Tool(
+            "joint-stiffness",
+            "Joint stiffness of a robot from loads and deflections at measured poses, with what the loads "
+            "cannot see "
+            "said so.",
+            "joint-stiffness") {}
 
  private:
   using Vector = std::optional<std::array<double, 3>>;
@@ -90,35 +91,35 @@ class JointStiffnessTool : public cli::Tool {
     if (plan_ && (!from_.empty() || !loss_.empty())) {
       throw cli::Failure(cli::ExitStatus::kUsage, "--from, --loss: expected without --plan");
     }
-    const cli::Input robot_input = read_input(robot_path_, cli::InputForm::kJson);
-    const Robot robot = robot_from_json(robot_input.document, robot_input.source);
+    const document::Input robot_input = read_input(robot_path_, cli::InputForm::kJson);
+    const robot::Robot robot = document::robot_from_json(robot_input.document, robot_input.source);
     if (plan_)
       plan(robot);
     else
       identify(robot);
   }
 
-  void identify(const Robot& robot) {
-    const cli::Input input =
+  void identify(const robot::Robot& robot) {
+    const document::Input input =
         read_main_input(from_ == "json" ? cli::InputForm::kJson : cli::InputForm::kByContent);
     const bool csv = from_ == "csv" || (from_.empty() && input.document.is_null());
-    const LoadSamplesDocument samples =
-        csv ? load_samples_from_csv(input.source, robot, components_)
-            : load_samples_from_json(input.document, input.source, robot, components_);
+    const document::LoadSamplesDocument samples =
+        csv ? document::load_samples_from_csv(input.source, robot, components_)
+            : document::load_samples_from_json(input.document, input.source, robot, components_);
     warn_of_units(samples.samples, input.source.name);
-    IdentificationDocument document;
+    document::IdentificationDocument document;
     document.options = {loss_ == "huber", components_};
     document.places = samples.places;
     try {
-      document.identification = identify_stiffness(robot, samples.samples, document.options);
+      document.identification = robot::identify_stiffness(robot, samples.samples, document.options);
     } catch (const NoAnswer& answer) {
       throw NoAnswer(input.source.name + ": " + answer.what());
     }
-    const Identification& found = document.identification;
-    for (int j = 0; j < kJoints; ++j) {
+    const robot::Identification& found = document.identification;
+    for (int j = 0; j < robot::kJoints; ++j) {
       if (found.identified(j)) continue;
       warn("joint " + robot.joints[static_cast<std::size_t>(j)].name +
-           " is not identified: " + verdict_text(found.verdict[static_cast<std::size_t>(j)]));
+           " is not identified: " + document::verdict_text(found.verdict[static_cast<std::size_t>(j)]));
     }
     if (!found.deviations_known) {
       warn(input.source.name + ": as many unknowns as measured values: no deviations and no intervals");
@@ -126,9 +127,10 @@ class JointStiffnessTool : public cli::Tool {
     if (found.chi_square_tail < 1e-3) {
       warn(input.source.name +
            ": the residuals are too large for the stated deviations (chi-square per degree of freedom " +
-           Json(*found.chi_square_per_dof).dump() + "): the deviations of the result were scaled up");
+           document::Json(*found.chi_square_per_dof).dump() +
+           "): the deviations of the result were scaled up");
     }
-    for (const Outlier& outlier : found.outliers) {
+    for (const robot::Outlier& outlier : found.outliers) {
       char text[160];
       std::snprintf(
           text, sizeof text, "%.1f um from the model, %.1f deviations%s", outlier.residual_m * 1e6,
@@ -136,13 +138,13 @@ class JointStiffnessTool : public cli::Tool {
           document.options.huber ? "" : ": an outlier? (--loss huber makes such samples count less)");
       warn(input.source.name + ": " + samples.places[static_cast<std::size_t>(outlier.sample)] + ": " + text);
     }
-    write_document(main_output(), identification_to_json(document, robot));
+    write_document(main_output(), document::identification_to_json(document, robot));
   }
 
   // A robot under test gives by micrometres to millimetres.
-  void warn_of_units(const std::vector<LoadSample>& samples, const std::string& name) const {
+  void warn_of_units(const std::vector<robot::LoadSample>& samples, const std::string& name) const {
     double largest = 0;
-    for (const LoadSample& sample : samples) largest = std::max(largest, sample.deflection_m.norm());
+    for (const robot::LoadSample& sample : samples) largest = std::max(largest, sample.deflection_m.norm());
     if (largest > 0.02 || (largest > 0 && largest < 1e-6)) {
       char text[80];
       std::snprintf(text, sizeof text, ": the largest deflection is %.3g mm: are the units right?",
@@ -151,18 +153,18 @@ class JointStiffnessTool : public cli::Tool {
     }
   }
 
-  void plan(const Robot& robot) {
-    PlanDocument document;
+  void plan(const robot::Robot& robot) {
+    document::PlanDocument document;
     if (!expected_path_.empty()) {
-      const cli::Input expected = read_input(expected_path_, cli::InputForm::kJson);
-      document.expected = joint_stiffness_from_json(expected.document, expected.source);
+      const document::Input expected = read_input(expected_path_, cli::InputForm::kJson);
+      document.expected = document::joint_stiffness_from_json(expected.document, expected.source);
     }
-    const cli::Input input = read_main_input(cli::InputForm::kJson);
-    const std::vector<JointAngles> poses = pose_list_from_json(input.document, input.source);
+    const document::Input input = read_main_input(cli::InputForm::kJson);
+    const std::vector<robot::JointAngles> poses = document::pose_list_from_json(input.document, input.source);
     if (loads_.empty()) loads_.assign(kPlanLoads.begin(), kPlanLoads.end());
     for (std::size_t p = 0; p < poses.size(); ++p) {
       for (const auto& load : loads_) {
-        LoadSample sample;
+        robot::LoadSample sample;
         sample.angles = poses[p];
         sample.force_n = Eigen::Vector3d(load.data());
         const auto point = [&](const Vector& mm) {
@@ -178,14 +180,15 @@ class JointStiffnessTool : public cli::Tool {
     if (*plan_ > kMostPlanned) {
       throw cli::Failure(cli::ExitStatus::kUsage, "--plan: expected at most " + std::to_string(kMostPlanned));
     }
-    document.plan = plan_measurements(robot, document.candidates, components_, *plan_);
-    for (int j = 0; j < kJoints; ++j) {
-      if (document.plan.identifiability.visibility[static_cast<std::size_t>(j)] != Visibility::kVisible) {
+    document.plan = robot::plan_measurements(robot, document.candidates, components_, *plan_);
+    for (int j = 0; j < robot::kJoints; ++j) {
+      if (document.plan.identifiability.visibility[static_cast<std::size_t>(j)] !=
+          robot::Visibility::kVisible) {
         warn("joint " + robot.joints[static_cast<std::size_t>(j)].name +
              " cannot be identified from these poses and loads");
       }
     }
-    write_document(main_output(), plan_to_json(document, robot));
+    write_document(main_output(), document::plan_to_json(document, robot));
   }
 
   std::string robot_path_, from_, loss_, expected_path_;

@@ -15,11 +15,11 @@
 #include "cli/exit_status.h"
 #include "cli/progress_bar.h"
 #include "cli/tool.h"
-#include "document/assembly.h"
-#include "document/error.h"
-#include "document/frf.h"
-#include "document/frf_import.h"
-#include "document/tool_joint.h"
+#include "document/kinds/assembly_json.h"
+#include "document/kinds/frf_json.h"
+#include "document/kinds/tool_joint_json.h"
+#include "document/measured/frf_import.h"
+#include "document/text/error.h"
 
 namespace stablecut {
 namespace {
@@ -33,11 +33,12 @@ constexpr std::size_t kMostPositions = 10;
 class RcsaCouple : public cli::Tool {
  public:
   RcsaCouple()
-      : Tool("rcsa-couple",
-             "The frequency responses at the tip of a tool that nobody tapped, by receptance coupling of "
-             "tool, "
-             "joint and holder; or, with --identify, the joint from a measured tip.",
-             "frf") {}
+      : cli::Tool(
+            "rcsa-couple",
+            "The frequency responses at the tip of a tool that nobody tapped, by receptance coupling of "
+            "tool, "
+            "joint and holder; or, with --identify, the joint from a measured tip.",
+            "frf") {}
 
  private:
   static cli::Failure usage(const std::string& text) {
@@ -101,7 +102,7 @@ class RcsaCouple : public cli::Tool {
       const auto band = equals == std::string::npos ? std::nullopt : parse_band(part.substr(equals + 1));
       const auto at = static_cast<std::size_t>(name - kJointNames.begin());
       if (name == kJointNames.end() || !band ||
-          !(band->from >= kLeastBound[at] && band->to <= kLargestBound)) {
+          !(band->from >= receptance::kLeastBound[at] && band->to <= receptance::kLargestBound)) {
         throw CLI::ValidationError(
             "--bounds", std::string(part) +
                             ": expected k1=LO:HI, c1=, k2= or c2=, increasing, from 1e-20 for k1 and k2, "
@@ -115,32 +116,36 @@ class RcsaCouple : public cli::Tool {
 
   // ---- coupling ----
 
-  AssemblyDocument read_assembly(const Input& input, const Eigen::VectorXd& frequency_hz) {
+  document::AssemblyDocument read_assembly(const document::Input& input,
+                                           const Eigen::VectorXd& frequency_hz) {
     assembly_name_ = input.source.name;
     const auto folder = std::filesystem::path(main_input() == "-" ? "" : main_input()).parent_path();
-    AssemblyDocument document =
-        assembly_from_json(input.document, input.source, frequency_hz, [&](const std::string& path) {
+    document::AssemblyDocument document = document::assembly_from_json(
+        input.document, input.source, frequency_hz, [&](const std::string& path) {
           return read_input((folder / path).string(), cli::InputForm::kByContent);
         });
     for (const std::string& text : document.warnings) warn(text);
     return document;
   }
 
-  void set_joints(Assembly& assembly, const std::array<std::optional<ToolJoint>, 2>& joints) const {
+  void set_joints(receptance::Assembly& assembly,
+                  const std::array<std::optional<receptance::ToolJoint>, 2>& joints) const {
     for (std::size_t d = 0; d < 2; ++d) assembly.held[d].joint = joints[d];
-    const auto values = [&](std::size_t d) { return joints[d] ? values_of(*joints[d]) : JointValues{}; };
+    const auto values = [&](std::size_t d) {
+      return joints[d] ? receptance::values_of(*joints[d]) : receptance::JointValues{};
+    };
     assembly.axisymmetric = assembly.axisymmetric && values(0) == values(1);
   }
 
   // The tip, or pairs of places on the tool.
-  FrequencyResponse responses(const Assembly& assembly) {
+  dynamics::FrequencyResponse responses(const receptance::Assembly& assembly) {
     std::vector<std::pair<double, double>> places;
     for (const double a : positions_m_) {
       for (const double b : positions_m_) places.emplace_back(a, b);
     }
     const auto lines = static_cast<std::size_t>(assembly.frequency_hz.size());
     const std::size_t pairs = std::max<std::size_t>(places.size(), 1);
-    std::vector<Receptance<4>> value(lines * pairs);
+    std::vector<receptance::Receptance<4>> value(lines * pairs);
     {
       cli::ProgressBar bar("rcsa-couple: lines", !quiet());
       parallel_for(
@@ -153,7 +158,7 @@ class RcsaCouple : public cli::Tool {
           },
           [&](double share) { bar.show(share); });
     }
-    FrequencyResponse frf;
+    dynamics::FrequencyResponse frf;
     frf.frequency_hz = assembly.frequency_hz;
     const int step = slopes_ ? 1 : 2;  // through w_x, slope_x, w_y, slope_y
     const auto name = [](int i) {
@@ -162,7 +167,7 @@ class RcsaCouple : public cli::Tool {
     for (std::size_t p = 0; p < pairs; ++p) {
       for (int a = 0; a < 4; a += step) {
         for (int b = 0; b < 4; b += step) {
-          FrequencyResponseEntry entry;
+          dynamics::FrequencyResponseEntry entry;
           entry.response = name(a);
           entry.reference = name(b);
           if (!places.empty()) {
@@ -174,8 +179,8 @@ class RcsaCouple : public cli::Tool {
             const auto line = static_cast<Eigen::Index>(i);
             entry.h[line] = value[i * pairs + p](a, b);
             if (!std::isfinite(std::abs(entry.h[line]))) {
-              throw DataError(
-                  assembly_name_, "/frequency_hz", short_number(assembly.frequency_hz[line]),
+              throw document::DataError(
+                  assembly_name_, "/frequency_hz", document::short_number(assembly.frequency_hz[line]),
                   "the receptance is not finite: expected sizes and materials of usual magnitude");
             }
           }
@@ -186,22 +191,24 @@ class RcsaCouple : public cli::Tool {
     return frf;
   }
 
-  void write_responses(const std::string& path, const AssemblyDocument& document) {
-    Json result = frf_to_json(responses(document.assembly));
-    if (const Json quality = holder_quality_to_json(document); !quality.is_null()) result["holder"] = quality;
+  void write_responses(const std::string& path, const document::AssemblyDocument& document) {
+    document::Json result = document::frf_to_json(responses(document.assembly));
+    if (const document::Json quality = document::holder_quality_to_json(document); !quality.is_null())
+      result["holder"] = quality;
     write_document(path, std::move(result));
   }
 
   void couple() {
-    const Input input = read_main_input(cli::InputForm::kJson);
-    AssemblyDocument document = read_assembly(input, assembly_frequencies(input.document, input.source));
+    const document::Input input = read_main_input(cli::InputForm::kJson);
+    document::AssemblyDocument document =
+        read_assembly(input, document::assembly_frequencies(input.document, input.source));
     if (!positions_m_.empty() && document.assembly.tip_mass_kg > 0) {
-      throw DataError(input.source.name, "/sensor_mass_g", "",
-                      "with --positions: expected no sensor on the tip");
+      throw document::DataError(input.source.name, "/sensor_mass_g", "",
+                                "with --positions: expected no sensor on the tip");
     }
     if (!joint_path_.empty()) {
-      const Input joint = read_input(joint_path_, cli::InputForm::kJson);
-      const ToolJoints joints = tool_joints_from_json(joint.document, joint.source);
+      const document::Input joint = read_input(joint_path_, cli::InputForm::kJson);
+      const document::ToolJoints joints = document::tool_joints_from_json(joint.document, joint.source);
       if (!joints.only.empty()) {
         warn(joint.source.name + ": identified in " + joints.only + " only: taken for " +
              (joints.only == "x" ? "y" : "x") + " as well");
@@ -212,7 +219,7 @@ class RcsaCouple : public cli::Tool {
     write_rigid(document);
   }
 
-  void write_rigid(AssemblyDocument document) {
+  void write_rigid(document::AssemblyDocument document) {
     if (rigid_path_.empty()) return;
     set_joints(document.assembly, {});
     write_responses(rigid_path_, document);
@@ -221,8 +228,9 @@ class RcsaCouple : public cli::Tool {
   // ---- identification ----
 
   // The entry at the tip itself, or null.
-  static const FrequencyResponseEntry* tip_entry(const FrequencyResponse& frf, const std::string& direction) {
-    FrequencyResponseEntry tip;
+  static const dynamics::FrequencyResponseEntry* tip_entry(const dynamics::FrequencyResponse& frf,
+                                                           const std::string& direction) {
+    dynamics::FrequencyResponseEntry tip;
     tip.response = tip.reference = direction;
     for (const auto& entry : frf.entries) {
       if (entry.same_places(tip)) return &entry;
@@ -231,39 +239,43 @@ class RcsaCouple : public cli::Tool {
   }
 
   void identify() {
-    const Input measured_input = read_input(identify_path_, cli::InputForm::kByContent);
+    const document::Input measured_input = read_input(identify_path_, cli::InputForm::kByContent);
     std::vector<std::string> remarks;
-    FrfChoice choice;
+    document::FrfChoice choice;
     choice.unit = unit_;
-    if (unit_ && frf_form_of(measured_input, choice) == FrfForm::kJson)
+    if (unit_ && document::frf_form_of(measured_input, choice) == document::FrfForm::kJson)
       throw usage("--unit: a frf document says its units itself");
-    const FrequencyResponse tap = import_frf(measured_input, choice, remarks);
+    const dynamics::FrequencyResponse tap = document::import_frf(measured_input, choice, remarks);
     for (const std::string& remark : remarks) warn(measured_input.source.name + ": " + remark);
-    const Input input = read_main_input(cli::InputForm::kJson);
-    const Eigen::VectorXd wanted = assembly_frequencies(input.document, input.source);
-    const FrequencyResponse measured = to_receptance(within_band(tap, wanted[0], wanted[wanted.size() - 1]));
-    if (measured.frequency_hz.size() < kLeastJointLines) {
-      throw DataError(
-          measured_input.source.name, "/frequency_hz",
-          std::to_string(measured.frequency_hz.size()) + " lines",
-          "expected at least " + std::to_string(kLeastJointLines) + " within the assembly's band");
+    const document::Input input = read_main_input(cli::InputForm::kJson);
+    const Eigen::VectorXd wanted = document::assembly_frequencies(input.document, input.source);
+    const dynamics::FrequencyResponse measured =
+        dynamics::to_receptance(dynamics::within_band(tap, wanted[0], wanted[wanted.size() - 1]));
+    if (measured.frequency_hz.size() < receptance::kLeastJointLines) {
+      throw document::DataError(measured_input.source.name, "/frequency_hz",
+                                std::to_string(measured.frequency_hz.size()) + " lines",
+                                "expected at least " + std::to_string(receptance::kLeastJointLines) +
+                                    " within the assembly's band");
     }
-    AssemblyDocument document = read_assembly(input, measured.frequency_hz);
-    Assembly& assembly = document.assembly;
+    document::AssemblyDocument document = read_assembly(input, measured.frequency_hz);
+    receptance::Assembly& assembly = document.assembly;
     if (assembly.couples_directions) {
-      throw DataError(input.source.name, "/holder", "",
-                      "couples x and y: expected a holder whose directions can be identified one by one");
+      throw document::DataError(
+          input.source.name, "/holder", "",
+          "couples x and y: expected a holder whose directions can be identified one by one");
     }
-    std::array<const FrequencyResponseEntry*, 2> entry{};
+    std::array<const dynamics::FrequencyResponseEntry*, 2> entry{};
     for (std::size_t d = 0; d < 2; ++d) entry[d] = tip_entry(measured, kDirections[d]);
     if (entry[0] == nullptr && entry[1] == nullptr)
-      throw DataError(measured_input.source.name, "/h", "", "expected an entry xx or yy at the tip");
-    const bool same = assembly.axisymmetric && entry[0] != nullptr && entry[1] != nullptr &&
-                      entry[0]->h == entry[1]->h &&
-                      same_values(known_variance(*entry[0]), known_variance(*entry[1]));
+      throw document::DataError(measured_input.source.name, "/h", "",
+                                "expected an entry xx or yy at the tip");
+    const bool same =
+        assembly.axisymmetric && entry[0] != nullptr && entry[1] != nullptr && entry[0]->h == entry[1]->h &&
+        dynamics::same_values(dynamics::known_variance(*entry[0]), dynamics::known_variance(*entry[1]));
 
-    ToolJointDocument result;
-    result.objective = objective_ == "amplitude" ? JointObjective::kAmplitude : JointObjective::kComplex;
+    document::ToolJointDocument result;
+    result.objective = objective_ == "amplitude" ? receptance::JointObjective::kAmplitude
+                                                 : receptance::JointObjective::kComplex;
     result.lines = measured.frequency_hz.size();
     result.lo_hz = measured.frequency_hz[0];
     result.hi_hz = measured.frequency_hz[result.lines - 1];
@@ -277,9 +289,9 @@ class RcsaCouple : public cli::Tool {
       if (result.estimate[d] && !(d == 1 && same))
         judge(*result.estimate[d], same ? "x and y" : kDirections[d]);
     }
-    write_document(main_output(), tool_joint_to_json(result));
+    write_document(main_output(), document::tool_joint_to_json(result));
     if (!fitted_path_.empty()) {
-      AssemblyDocument fitted = document;
+      document::AssemblyDocument fitted = document;
       // A direction that was not measured is taken as the other.
       const auto joint = [&](std::size_t d) {
         return result.estimate[result.estimate[d] ? d : 1 - d]->joint;
@@ -290,19 +302,20 @@ class RcsaCouple : public cli::Tool {
     write_rigid(document);
   }
 
-  JointEstimate estimate(const Assembly& assembly, int direction, const FrequencyResponseEntry& entry,
-                         JointObjective objective) const {
-    JointData data;
+  receptance::JointEstimate estimate(const receptance::Assembly& assembly, int direction,
+                                     const dynamics::FrequencyResponseEntry& entry,
+                                     receptance::JointObjective objective) const {
+    receptance::JointData data;
     data.omega_rad_per_s = kTwoPi * assembly.frequency_hz;
     for (Eigen::Index i = 0; i < data.omega_rad_per_s.size(); ++i)
       data.plane.push_back(assembly.plane(direction, i));
     data.tip = entry.h;
-    data.variance = known_variance(entry);
-    return identify_joint(data, bounds_, objective);
+    data.variance = dynamics::known_variance(entry);
+    return receptance::identify_joint(data, bounds_, objective);
   }
 
-  void judge(const JointEstimate& estimate, const std::string& direction) const {
-    const JointValues values = values_of(estimate.joint);
+  void judge(const receptance::JointEstimate& estimate, const std::string& direction) const {
+    const receptance::JointValues values = receptance::values_of(estimate.joint);
     const auto percent = [](double share) { return std::to_string(std::lround(100 * share)) + " %"; };
     const bool unbounded =
         std::none_of(estimate.at_bound.begin(), estimate.at_bound.end(), [](bool b) { return b; });
@@ -321,7 +334,7 @@ class RcsaCouple : public cli::Tool {
     for (std::size_t i = 0; i < values.size(); ++i) {
       const std::string name = direction + ": " + kJointNames[i];
       if (estimate.at_bound[i]) {
-        warn(name + " lies at its bound, " + short_number(values[i]));
+        warn(name + " lies at its bound, " + document::short_number(values[i]));
       } else if (!estimate.identifiable[i]) {
         warn(name + " is not identifiable: its standard deviation is " +
              percent(estimate.deviation[i] / values[i]) + " of it");
@@ -331,9 +344,9 @@ class RcsaCouple : public cli::Tool {
 
   bool slopes_ = false, bounds_given_ = false;
   std::vector<double> positions_m_;
-  std::optional<FrfUnit> unit_;
+  std::optional<document::FrfUnit> unit_;
   std::string assembly_name_, joint_path_, identify_path_, fitted_path_, rigid_path_, objective_;
-  JointBounds bounds_;
+  receptance::JointBounds bounds_;
 };
 
 }  // namespace

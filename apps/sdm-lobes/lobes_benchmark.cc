@@ -13,13 +13,13 @@
 #include "base/range.h"
 #include "base/units.h"
 #include "cli/streams.h"
-#include "document/cut.h"
-#include "document/modal_table.h"
+#include "document/kinds/cut_json.h"
+#include "document/kinds/modal_table_json.h"
 #include "milling/lobes.h"
-#include "milling/multiplier_lanes.h"
-#include "milling/multipliers.h"
 #include "milling/semi_discretization.h"
 #include "milling/spectral.h"
+#include "numerics/eigenvalue_lanes.h"
+#include "numerics/eigenvalues.h"
 
 using namespace stablecut;
 
@@ -55,12 +55,12 @@ Eigen::MatrixXd with_free_intervals(const Eigen::MatrixXd& in_cut, Eigen::Index 
 }
 
 struct Case {
-  TipStructure structure;
-  Cutter cutter;
+  milling::TipStructure structure;
+  milling::Cutter cutter;
   std::vector<double> speeds, depths;
 
-  StabilityChart chart(bool with_grid, int threads) const {
-    return stability_chart(structure, cutter, speeds, depths, {}, with_grid, threads);
+  milling::StabilityChart chart(bool with_grid, int threads) const {
+    return milling::stability_chart(structure, cutter, speeds, depths, {}, with_grid, threads);
   }
   double time(bool with_grid, int threads = 1) const {
     return best_seconds([&] { sink += chart(with_grid, threads).error[0]; });
@@ -68,7 +68,7 @@ struct Case {
 };
 
 void the_thesis_case(const Case& thesis) {
-  const StabilityChart chart = thesis.chart(true, 1);
+  const milling::StabilityChart chart = thesis.chart(true, 1);
   const double points = static_cast<double>(thesis.speeds.size() * thesis.depths.size());
   const int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const double grid = thesis.time(true), grid_threaded = thesis.time(true, threads);
@@ -82,13 +82,13 @@ void the_thesis_case(const Case& thesis) {
   const std::vector<double> fine = Range{0, thesis.depths.back(), 2000}.values();
   for (std::size_t s = 0; s < thesis.speeds.size(); s += 9) {
     const int finer = chart.resolution[s] * 3 / 2 + 3;
-    const SpectralMap map(thesis.structure, thesis.cutter, thesis.speeds[s], finer);
-    const std::vector<double> radii = spectral_radii(map, thesis.depths);
+    const milling::SpectralMap map(thesis.structure, thesis.cutter, thesis.speeds[s], finer);
+    const std::vector<double> radii = milling::spectral_radii(map, thesis.depths);
     for (std::size_t i = 0; i < radii.size(); ++i) {
       const double own = chart.spectral_radius(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(s));
       error = std::max(error, std::abs(own - radii[i]) / std::max(1.0, radii[i]));
     }
-    const std::vector<double> between = spectral_radii(map, fine);
+    const std::vector<double> between = milling::spectral_radii(map, fine);
     for (std::size_t i = 1; i < fine.size(); ++i) {
       if ((between[i] > 1) == (between[i - 1] > 1)) continue;
       ++crossings;
@@ -105,7 +105,7 @@ void the_thesis_case(const Case& thesis) {
   int sampled = 0;
   const double baseline = seconds([&] {
     for (std::size_t s = 0; s < thesis.speeds.size(); s += 40) {
-      const SemiDiscretizationMap map(thesis.structure, thesis.cutter, thesis.speeds[s], 40);
+      const milling::SemiDiscretizationMap map(thesis.structure, thesis.cutter, thesis.speeds[s], 40);
       for (std::size_t i = 5; i < thesis.depths.size(); i += 20, ++sampled) {
         const Eigen::MatrixXd matrix = with_free_intervals(map.monodromy(thesis.depths[i]), 110);
         sink += Eigen::EigenSolver<Eigen::MatrixXd>(matrix, false).eigenvalues().cwiseAbs().maxCoeff();
@@ -119,16 +119,16 @@ void the_thesis_case(const Case& thesis) {
               thesis.time(false, threads));
 }
 
-void one_mode(const Case& thesis, const ModalModel& table) {
-  ModalModel alone = chosen_modes(table, {14});
+void one_mode(const Case& thesis, const dynamics::ModalModel& table) {
+  dynamics::ModalModel alone = dynamics::chosen_modes(table, {14});
   alone.dofs = {"x"};
   alone.modes[0].psi_r.conservativeResize(1);
   alone.modes[0].psi_l.conservativeResize(1);
-  const Case one{tip_structure(alone), thesis.cutter, thesis.speeds, thesis.depths};
+  const Case one{milling::tip_structure(alone), thesis.cutter, thesis.speeds, thesis.depths};
   std::printf("one mode, one direction, same grid: one thread %.3f s\n", one.time(true));
 }
 
-void scaling(const Case& thesis, const ModalModel& table) {
+void scaling(const Case& thesis, const dynamics::ModalModel& table) {
   const double base = thesis.time(true);
   Case more = thesis;
   more.speeds = speeds_of({5000, 20000, 400});
@@ -138,15 +138,15 @@ void scaling(const Case& thesis, const ModalModel& table) {
   std::printf("cost of twice the speeds %.2f, of four times the depths %.2f\n", speeds,
               more.time(true) / base);
   // The same modes four times over, each time a little higher.
-  ModalModel many = table;
+  dynamics::ModalModel many = table;
   many.covariance.resize(0, 0);
   for (const double factor : {1.013, 1.027, 1.041}) {
-    for (Mode mode : table.modes) {
+    for (dynamics::Mode mode : table.modes) {
       mode.frequency_hz *= factor;
       many.modes.push_back(mode);
     }
   }
-  const Case sixty{tip_structure(many), thesis.cutter, speeds_of({5000, 20000, 10}), thesis.depths};
+  const Case sixty{milling::tip_structure(many), thesis.cutter, speeds_of({5000, 20000, 10}), thesis.depths};
   const Case fifteen{thesis.structure, thesis.cutter, sixty.speeds, thesis.depths};
   std::printf("cost of 60 modes, of 15: %.1f\n", sixty.time(true) / fifteen.time(true));
 }
@@ -163,7 +163,7 @@ void real_cutters(const Case& thesis) {
 }
 
 void eigenvalue_solvers(const Case& thesis) {
-  const SpectralMap map(thesis.structure, thesis.cutter, thesis.speeds[100], 9);
+  const milling::SpectralMap map(thesis.structure, thesis.cutter, thesis.speeds[100], 9);
   std::vector<Eigen::MatrixXd> matrices;
   for (int i = 1; i <= 8; ++i) matrices.push_back(map.monodromy(i * 0.4e-3));
   constexpr int kRepeats = 200;
@@ -173,9 +173,9 @@ void eigenvalue_solvers(const Case& thesis) {
            }) /
            (kRepeats * 8);
   };
-  const double lanes = time([&] { sink += eigenvalues_of_each(matrices).front()[0].real(); });
+  const double lanes = time([&] { sink += numerics::eigenvalues_of_each(matrices).front()[0].real(); });
   const double own = time([&] {
-    for (const auto& matrix : matrices) sink += eigenvalues(matrix)[0].real();
+    for (const auto& matrix : matrices) sink += numerics::eigenvalues(matrix)[0].real();
   });
   const double dense = time([&] {
     for (const auto& matrix : matrices)
@@ -194,10 +194,11 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "lobes_benchmark: expected TABLE and CUT\n");
     return 64;
   }
-  const Source table_source = cli::read_source(argv[1]), cut_source = cli::read_source(argv[2]);
-  const ModalModel table = modal_table_from_json(parse_json(table_source), table_source);
-  const CutDocument cut = cut_from_json(parse_json(cut_source), cut_source);
-  const Case thesis{tip_structure(table), cut.cutter, speeds_of({5000, 20000, 200}),
+  const document::Source table_source = cli::read_source(argv[1]), cut_source = cli::read_source(argv[2]);
+  const dynamics::ModalModel table =
+      document::modal_table_from_json(document::parse_json(table_source), table_source);
+  const document::CutDocument cut = document::cut_from_json(document::parse_json(cut_source), cut_source);
+  const Case thesis{milling::tip_structure(table), cut.cutter, speeds_of({5000, 20000, 200}),
                     Range{0, 4e-3, 100}.values()};
   the_thesis_case(thesis);
   one_mode(thesis, table);

@@ -8,17 +8,17 @@
 #include "cli/exit_status.h"
 #include "cli/progress_bar.h"
 #include "cli/tool.h"
-#include "document/cut.h"
-#include "document/error.h"
-#include "document/lobes.h"
-#include "document/modal_table.h"
+#include "document/kinds/cut_json.h"
+#include "document/kinds/lobes_json.h"
+#include "document/kinds/modal_table_json.h"
+#include "document/text/error.h"
 
 namespace stablecut {
 namespace {
 
 // The chart where neither cut nor options say one.
-constexpr Range kDefaultSpeed{2000, 20000, kDefaultChartCount};
-constexpr Range kDefaultDepth{0, 5, kDefaultChartCount};
+constexpr Range kDefaultSpeed{2000, 20000, document::kDefaultChartCount};
+constexpr Range kDefaultDepth{0, 5, document::kDefaultChartCount};
 
 // Above this estimated error of the spectral radius the result is called not converged.
 constexpr double kSuspectError = 1e-6;
@@ -26,11 +26,12 @@ constexpr double kSuspectError = 1e-6;
 class SdmLobes : public cli::Tool {
  public:
   SdmLobes()
-      : Tool("sdm-lobes",
-             "Stability lobes of milling from a modal table of the tool tip: spectral radii over speed and "
-             "depth, "
-             "and the limit depth at each speed.",
-             "lobes") {}
+      : cli::Tool(
+            "sdm-lobes",
+            "Stability lobes of milling from a modal table of the tool tip: spectral radii over speed and "
+            "depth, "
+            "and the limit depth at each speed.",
+            "lobes") {}
 
  private:
   void setup(CLI::App& app) override {
@@ -95,7 +96,7 @@ class SdmLobes : public cli::Tool {
                      slash == std::string::npos ? std::nullopt : parse_integer(text.substr(slash + 1));
                  if (!index || !count || *index < 1 || *index > *count)
                    throw CLI::ValidationError("--shard", text + ": expected K/N with 1 <= K <= N");
-                 shard_ = Shard{*index, *count, {}};
+                 shard_ = document::Shard{*index, *count, {}};
                },
                "Only part K of N of the chart: every Nth speed from the Kth on")
             ->type_name("K/N"));
@@ -107,35 +108,36 @@ class SdmLobes : public cli::Tool {
 
   void run() override {
     check_usage();
-    const Json cut_json = cut_document();
-    const CutDocument cut = read_cut(cut_json);
+    const document::Json cut_json = cut_document();
+    const document::CutDocument cut = read_cut(cut_json);
     check_cut(cut);
-    const cli::Input table = read_main_input(cli::InputForm::kJson);
-    const ModalModel whole_model = modal_table_from_json(table.document, table.source);
-    const ModalModel model = selected_modes(whole_model, table.source);
-    const TipStructure structure = structure_of(model, table.source);
+    const document::Input table = read_main_input(cli::InputForm::kJson);
+    const dynamics::ModalModel whole_model = document::modal_table_from_json(table.document, table.source);
+    const dynamics::ModalModel model = selected_modes(whole_model, table.source);
+    const milling::TipStructure structure = structure_of(model, table.source);
     for (const std::string& dof : model.dofs) {
       if (dof != "x" && dof != "y")
         warn(table.source.name + ": /dofs: \"" + dof + "\": left out: only x and y chatter here");
     }
 
-    LobesDocument lobes;
-    lobes.scheme = {method_ == "sdm" ? StabilityMethod::kSemiDiscretization : StabilityMethod::kSpectral,
-                    intervals_.value_or(StabilityScheme{}.intervals)};
+    document::LobesDocument lobes;
+    lobes.scheme = {method_ == "sdm" ? milling::StabilityMethod::kSemiDiscretization
+                                     : milling::StabilityMethod::kSpectral,
+                    intervals_.value_or(milling::StabilityScheme{}.intervals)};
     const Range speed = speed_.value_or(cut.speed_rpm.value_or(kDefaultSpeed));
     const Range depth = depth_.value_or(cut.depth_mm.value_or(kDefaultDepth));
     if (!(speed.from > 0))
       throw cli::Failure(cli::ExitStatus::kUsage,
-                         "--speed: " + Json(speed.from).dump() + ": expected speeds above 0 rpm");
+                         "--speed: " + document::Json(speed.from).dump() + ": expected speeds above 0 rpm");
     if (depth.from < 0)
-      throw cli::Failure(cli::ExitStatus::kUsage,
-                         "--depth: " + Json(depth.from).dump() + ": expected depths not below 0 mm");
+      throw cli::Failure(cli::ExitStatus::kUsage, "--depth: " + document::Json(depth.from).dump() +
+                                                      ": expected depths not below 0 mm");
     lobes.speed_rpm = speed.values();
     lobes.depth_mm = depth.values();
     lobes.cut = cut_as_used(cut_json, speed, depth);
     if (!points_path_.empty()) {
-      const cli::Input points = read_input(points_path_, cli::InputForm::kByContent);
-      for (const MeasuredCut& measured : measured_cuts(points.source, points.document)) {
+      const document::Input points = read_input(points_path_, cli::InputForm::kByContent);
+      for (const document::MeasuredCut& measured : document::measured_cuts(points.source, points.document)) {
         lobes.points.push_back({measured, 0});
       }
     }
@@ -144,9 +146,9 @@ class SdmLobes : public cli::Tool {
       throw cli::Failure(cli::ExitStatus::kUsage, "--shard: expected at most as many parts as speeds, " +
                                                       std::to_string(lobes.speed_rpm.size()));
     // The table's own hash, and the options that choose from it.
-    const Json of = {{"sha256", sha256(table.source.text)},
-                     {"modes", modes_.value_or(std::vector<int>{})},
-                     {"seed", seed_.value_or(1)}};
+    const document::Json of = {{"sha256", cli::sha256(table.source.text)},
+                               {"modes", modes_.value_or(std::vector<int>{})},
+                               {"seed", seed_.value_or(1)}};
     if (shard_) {
       lobes.shard = shard_;
       lobes.shard->of = of;
@@ -157,21 +159,21 @@ class SdmLobes : public cli::Tool {
     if (part_paths_.empty()) {
       compute_chart(structure, model, cut, axes, lobes);
     } else {
-      std::vector<Input> parts;
+      std::vector<document::Input> parts;
       for (const std::string& path : part_paths_) parts.push_back(read_part(path));
-      merge_parts(lobes, !limit_only_, of, parts);
+      document::merge_parts(lobes, !limit_only_, of, parts);
     }
     if (per_mode_) lobes.per_mode = limit_of_each_mode(whole_model, cut.cutter, axes, lobes.scheme);
     judge(structure, cut.cutter, lobes);
     if (!shard_) lobes.what_to_run = what_to_run(structure, cut, axes, lobes);
     warn_if_not_converged(lobes);
-    write_document(main_output(), lobes_to_json(lobes));
+    write_document(main_output(), document::lobes_to_json(lobes));
   }
 
   // The chart's speeds and depths in the units of the numeric rooms.
   struct ChartAxes {
     std::vector<double> revolutions_per_s, depths_m;
-    explicit ChartAxes(const LobesDocument& lobes) {
+    explicit ChartAxes(const document::LobesDocument& lobes) {
       for (const double rpm : lobes.speed_rpm) revolutions_per_s.push_back(revolutions_per_s_from_rpm(rpm));
       for (const double mm : lobes.depth_mm) depths_m.push_back(metres_from_mm(mm));
     }
@@ -191,8 +193,8 @@ class SdmLobes : public cli::Tool {
   }
 
   // What the options ask of the cut.
-  void check_cut(const CutDocument& cut) const {
-    const Cutter& cutter = cut.cutter;
+  void check_cut(const document::CutDocument& cut) const {
+    const milling::Cutter& cutter = cut.cutter;
     if (method_ == "sdm" &&
         (!cutter.equal_pitch() || cutter.lag_rad_per_m != 0 || cutter.damping_n_per_m > 0)) {
       throw cli::Failure(cli::ExitStatus::kUsage,
@@ -205,18 +207,19 @@ class SdmLobes : public cli::Tool {
     }
   }
 
-  void compute_chart(const TipStructure& structure, const ModalModel& model, const CutDocument& cut,
-                     const ChartAxes& axes, LobesDocument& lobes) {
+  void compute_chart(const milling::TipStructure& structure, const dynamics::ModalModel& model,
+                     const document::CutDocument& cut, const ChartAxes& axes,
+                     document::LobesDocument& lobes) {
     {
       cli::ProgressBar bar("sdm-lobes: chart", !quiet());
       lobes.chart =
-          stability_chart(structure, cut.cutter, axes.revolutions_per_s, axes.depths_m, lobes.scheme,
-                          !limit_only_, threads(), [&](double share) { bar.show(share); });
+          milling::stability_chart(structure, cut.cutter, axes.revolutions_per_s, axes.depths_m, lobes.scheme,
+                                   !limit_only_, threads(), [&](double share) { bar.show(share); });
     }
     // Modes are named as in the table.
     if (modes_) {
       for (auto& crossings : lobes.chart.crossings) {
-        for (StabilityCrossing& crossing : crossings)
+        for (milling::StabilityCrossing& crossing : crossings)
           crossing.mode = static_cast<std::size_t>((*modes_)[crossing.mode] - 1);
       }
     }
@@ -226,20 +229,21 @@ class SdmLobes : public cli::Tool {
           "--samples: neither a covariance in the modal table nor kt_std_n_per_mm2 or kr_std_n_per_mm2 in "
           "the cut: every sample is the same");
     cli::ProgressBar bar("sdm-lobes: samples", !quiet());
-    lobes.sampled = sampled_stability(
-        sampled_cuts(model, cut.cutter, cut.deviations, *samples_, static_cast<unsigned>(seed_.value_or(1))),
-        axes.revolutions_per_s, axes.depths_m, lobes.chart.resolution, !limit_only_, threads(),
-        [&](double share) { bar.show(share); });
+    lobes.sampled =
+        milling::sampled_stability(milling::sampled_cuts(model, cut.cutter, cut.deviations, *samples_,
+                                                         static_cast<unsigned>(seed_.value_or(1))),
+                                   axes.revolutions_per_s, axes.depths_m, lobes.chart.resolution,
+                                   !limit_only_, threads(), [&](double share) { bar.show(share); });
   }
 
-  WhatToRun what_to_run(const TipStructure& structure, const CutDocument& cut, const ChartAxes& axes,
-                        const LobesDocument& lobes) const {
-    WhatToRun what;
-    std::vector<LimitPoint> curve;
+  document::WhatToRun what_to_run(const milling::TipStructure& structure, const document::CutDocument& cut,
+                                  const ChartAxes& axes, const document::LobesDocument& lobes) const {
+    document::WhatToRun what;
+    std::vector<milling::LimitPoint> curve;
     for (std::size_t s = 0; s < axes.revolutions_per_s.size(); ++s) {
-      const StabilityCrossing* limit = limit_of(lobes.chart.crossings[s]);
+      const milling::StabilityCrossing* limit = milling::limit_of(lobes.chart.crossings[s]);
       curve.push_back({axes.revolutions_per_s[s], {}});
-      if (limit != nullptr) curve.back().depth_m = as_written(limit->depth_m);
+      if (limit != nullptr) curve.back().depth_m = document::as_written(limit->depth_m);
     }
     const double top = axes.depths_m.back();
     const auto limit_at = [&](double speed, double largest_depth_m) {
@@ -247,41 +251,43 @@ class SdmLobes : public cli::Tool {
       const auto above =
           std::upper_bound(axes.revolutions_per_s.begin(), axes.revolutions_per_s.end(), speed);
       const auto below = std::max<std::ptrdiff_t>(above - axes.revolutions_per_s.begin() - 1, 0);
-      return limit_depth(structure, cut.cutter, speed, lobes.scheme.method,
-                         lobes.chart.resolution[static_cast<std::size_t>(below)], largest_depth_m);
+      return milling::limit_depth(structure, cut.cutter, speed, lobes.scheme.method,
+                                  lobes.chart.resolution[static_cast<std::size_t>(below)], largest_depth_m);
     };
-    what.unconditional = unconditional_limit(
+    what.unconditional = milling::unconditional_limit(
         curve, top,
-        possible_flips(structure, cut.cutter, axes.revolutions_per_s.front(), axes.revolutions_per_s.back()),
+        milling::possible_flips(structure, cut.cutter, axes.revolutions_per_s.front(),
+                                axes.revolutions_per_s.back()),
         limit_at, threads());
     what.limits.largest_depth_m = top;
     if (depth_margin_) what.limits.depth_share = *depth_margin_;
     if (speed_margin_) what.limits.speed_share = *speed_margin_;
     if (most_power_ || most_torque_) {
-      const CutRate unit = cut_rate(cut.cutter, *cut.feed_per_tooth_m, 1, 1);
+      const milling::CutRate unit = milling::cut_rate(cut.cutter, *cut.feed_per_tooth_m, 1, 1);
       if (most_power_) what.limits.largest_depth_times_speed = *most_power_ / unit.power_w;
       if (most_torque_) what.limits.largest_depth_by_torque = *most_torque_ / unit.torque_n_m;
     }
-    what.best =
-        best_points(curve, what.limits, static_cast<std::size_t>(best_.value_or(5)), limit_at, threads());
+    what.best = milling::best_points(curve, what.limits, static_cast<std::size_t>(best_.value_or(5)),
+                                     limit_at, threads());
     if (cut.feed_per_tooth_m) {
-      for (const OperatingPoint& point : what.best)
+      for (const milling::OperatingPoint& point : what.best)
         what.rates.push_back(
-            cut_rate(cut.cutter, *cut.feed_per_tooth_m, point.revolutions_per_s, point.depth_m));
+            milling::cut_rate(cut.cutter, *cut.feed_per_tooth_m, point.revolutions_per_s, point.depth_m));
     }
     return what;
   }
 
-  void warn_if_not_converged(const LobesDocument& lobes) const {
-    if (lobes.scheme.method != StabilityMethod::kSpectral) return;
+  void warn_if_not_converged(const document::LobesDocument& lobes) const {
+    if (lobes.scheme.method != milling::StabilityMethod::kSpectral) return;
     const double error =
         std::max(lobes.points_error, *std::max_element(lobes.chart.error.begin(), lobes.chart.error.end()));
     if (error > kSuspectError)
-      warn("the spectral radius has converged only to " + Json(error).dump() + " (see /convergence)");
+      warn("the spectral radius has converged only to " + document::Json(error).dump() +
+           " (see /convergence)");
   }
 
   // From --cut, or from the options.
-  Json cut_document() {
+  document::Json cut_document() {
     const bool from_options = std::any_of(cut_options_.begin(), cut_options_.end(),
                                           [](const CLI::Option* option) { return option->count() > 0; });
     if (!cut_path_.empty()) {
@@ -290,7 +296,7 @@ class SdmLobes : public cli::Tool {
             cli::ExitStatus::kUsage,
             "--cut: expected either a cut document or --teeth --kt --kr --milling --immersion");
       }
-      const cli::Input input = read_input(cut_path_, cli::InputForm::kJson);
+      const document::Input input = read_input(cut_path_, cli::InputForm::kJson);
       cut_source_ = input.source;
       return input.document;
     }
@@ -307,26 +313,27 @@ class SdmLobes : public cli::Tool {
   }
 
   // What is wrong with a cut by options is wrong usage.
-  CutDocument read_cut(const Json& document) const {
-    if (!cut_path_.empty()) return cut_from_json(document, cut_source_);
+  document::CutDocument read_cut(const document::Json& document) const {
+    if (!cut_path_.empty()) return document::cut_from_json(document, cut_source_);
     try {
-      return cut_from_json(document, cut_source_);
-    } catch (const DataError& error) {
+      return document::cut_from_json(document, cut_source_);
+    } catch (const document::DataError& error) {
       throw cli::Failure(cli::ExitStatus::kUsage, error.what());
     }
   }
 
-  static Json cut_as_used(Json cut, const Range& speed, const Range& depth) {
+  static document::Json cut_as_used(document::Json cut, const Range& speed, const Range& depth) {
     cut.erase("format");
     cut.erase("provenance");
     const auto range = [](const Range& r) {
-      return Json{{"from", r.from}, {"to", r.to}, {"count", r.count}};
+      return document::Json{{"from", r.from}, {"to", r.to}, {"count", r.count}};
     };
     cut["chart"] = {{"speed_rpm", range(speed)}, {"depth_mm", range(depth)}};
     return cut;
   }
 
-  ModalModel selected_modes(const ModalModel& model, const Source& source) const {
+  dynamics::ModalModel selected_modes(const dynamics::ModalModel& model,
+                                      const document::Source& source) const {
     if (!modes_) return model;
     std::vector<std::size_t> selected;
     for (const int index : *modes_) {
@@ -337,40 +344,46 @@ class SdmLobes : public cli::Tool {
       }
       selected.push_back(static_cast<std::size_t>(index - 1));
     }
-    return chosen_modes(model, selected);
+    return dynamics::chosen_modes(model, selected);
   }
 
-  static TipStructure structure_of(const ModalModel& model, const Source& source) {
+  static milling::TipStructure structure_of(const dynamics::ModalModel& model,
+                                            const document::Source& source) {
     if (model.dof("x") < 0 && model.dof("y") < 0) {
-      throw DataError(source.name, "/dofs", Json(model.dofs).dump(), "expected x, y or both");
+      throw document::DataError(source.name, "/dofs", document::Json(model.dofs).dump(),
+                                "expected x, y or both");
     }
-    TipStructure structure = tip_structure(model);
+    milling::TipStructure structure = milling::tip_structure(model);
     if (structure.modes() == 0) {
-      throw DataError(source.name, "/modes", "",
-                      "expected at least one mode that a force in x or y drives and that moves x or y");
+      throw document::DataError(
+          source.name, "/modes", "",
+          "expected at least one mode that a force in x or y drives and that moves x or y");
     }
     return structure;
   }
 
-  std::vector<ModeLimit> limit_of_each_mode(const ModalModel& model, const Cutter& cutter,
-                                            const ChartAxes& axes, const StabilityScheme& scheme) const {
+  std::vector<document::ModeLimit> limit_of_each_mode(const dynamics::ModalModel& model,
+                                                      const milling::Cutter& cutter, const ChartAxes& axes,
+                                                      const milling::StabilityScheme& scheme) const {
     std::vector<int> indices;
     for (int k = 1; k <= static_cast<int>(model.modes.size()); ++k) {
       if (!modes_ || std::binary_search(modes_->begin(), modes_->end(), k)) indices.push_back(k);
     }
-    std::vector<ModeLimit> result;
+    std::vector<document::ModeLimit> result;
     cli::ProgressBar bar("sdm-lobes: modes", !quiet());
     for (std::size_t i = 0; i < indices.size(); ++i) {
-      const ModalModel alone = chosen_modes(model, {static_cast<std::size_t>(indices[i] - 1)});
-      ModeLimit limit{indices[i], std::vector<std::vector<StabilityCrossing>>(axes.revolutions_per_s.size())};
+      const dynamics::ModalModel alone =
+          dynamics::chosen_modes(model, {static_cast<std::size_t>(indices[i] - 1)});
+      document::ModeLimit limit{
+          indices[i], std::vector<std::vector<milling::StabilityCrossing>>(axes.revolutions_per_s.size())};
       // A mode that a force at the tip does not drive, or that does not move it, cannot chatter.
-      if (const TipStructure structure = tip_structure(alone); structure.modes() > 0) {
-        limit.crossings = stability_chart(structure, cutter, axes.revolutions_per_s, axes.depths_m, scheme,
-                                          false, threads())
+      if (const milling::TipStructure structure = milling::tip_structure(alone); structure.modes() > 0) {
+        limit.crossings = milling::stability_chart(structure, cutter, axes.revolutions_per_s, axes.depths_m,
+                                                   scheme, false, threads())
                               .crossings;
       }
       for (auto& crossings : limit.crossings) {
-        for (StabilityCrossing& crossing : crossings)
+        for (milling::StabilityCrossing& crossing : crossings)
           crossing.mode = static_cast<std::size_t>(limit.mode - 1);
       }
       result.push_back(std::move(limit));
@@ -379,14 +392,15 @@ class SdmLobes : public cli::Tool {
     return result;
   }
 
-  void judge(const TipStructure& structure, const Cutter& cutter, LobesDocument& lobes) const {
+  void judge(const milling::TipStructure& structure, const milling::Cutter& cutter,
+             document::LobesDocument& lobes) const {
     std::vector<double> error(lobes.points.size(), 0.0);
     parallel_for(lobes.points.size(), threads(), [&](std::size_t i) {
-      JudgedCut& point = lobes.points[i];
+      document::JudgedCut& point = lobes.points[i];
       const double depth_m = metres_from_mm(point.cut.depth_mm);
-      const PreparedPeriod period = prepare_period(
+      const milling::PreparedPeriod period = milling::prepare_period(
           structure, cutter, revolutions_per_s_from_rpm(point.cut.speed_rpm), lobes.scheme, depth_m);
-      point.spectral_radius = spectral_radius(*period.map, depth_m);
+      point.spectral_radius = milling::spectral_radius(*period.map, depth_m);
       error[i] = period.error;
     });
     if (!error.empty()) lobes.points_error = *std::max_element(error.begin(), error.end());
@@ -395,13 +409,13 @@ class SdmLobes : public cli::Tool {
   std::string cut_path_, points_path_, milling_, method_ = "spectral";
   std::optional<int> teeth_, intervals_, best_, samples_, seed_;
   std::optional<double> kt_, kr_, immersion_, depth_margin_, speed_margin_, most_power_, most_torque_;
-  std::optional<Shard> shard_;
+  std::optional<document::Shard> shard_;
   std::vector<std::string> part_paths_;
   std::vector<CLI::Option*> cut_options_;
   std::optional<Range> speed_, depth_;
   std::optional<std::vector<int>> modes_;
   bool per_mode_ = false, limit_only_ = false;
-  Source cut_source_;
+  document::Source cut_source_;
 };
 
 }  // namespace

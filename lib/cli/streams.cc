@@ -12,9 +12,9 @@
 
 namespace stablecut::cli {
 
-Source read_source(const std::string& path) {
+document::Source read_source(const std::string& path) {
   const bool standard = path == "-";
-  Source source{standard ? "<stdin>" : path, ""};
+  document::Source source{standard ? "<stdin>" : path, ""};
   const auto fail = [&](ExitStatus status, const char* what) -> void {
     throw Failure(status, source.name + ": " + what + ": " + std::strerror(errno));
   };

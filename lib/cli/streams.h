@@ -3,11 +3,11 @@
 
 #include <string>
 
-#include "document/json_text.h"
+#include "document/text/json_text.h"
 
 namespace stablecut::cli {
 
 /// The bytes of a file, or of standard input for "-" (named <stdin> in messages). Throws Failure.
-Source read_source(const std::string& path);
+document::Source read_source(const std::string& path);
 
 }  // namespace stablecut::cli

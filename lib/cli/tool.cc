@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "cli/exit_status.h"
 #include "cli/streams.h"
-#include "document/error.h"
+#include "document/text/error.h"
 
 namespace stablecut::cli {
 namespace {
@@ -113,10 +113,11 @@ CLI::Option* add_choice_option(CLI::App& app, const std::string& name, std::stri
       ->type_name(words);
 }
 
-CLI::Option* add_unit_option(CLI::App& app, std::optional<FrfUnit>& value, const std::string& description) {
+CLI::Option* add_unit_option(CLI::App& app, std::optional<document::FrfUnit>& value,
+                             const std::string& description) {
   return add_parsed_option(app, "--unit", value, description, "UNIT",
                            "a unit of a response over a force, as um/N or g/lbf",
-                           [](const std::string& text) { return frf_unit(text); });
+                           [](const std::string& text) { return document::frf_unit(text); });
 }
 
 Tool::Tool(std::string name, std::string purpose, std::string main_kind)
@@ -129,31 +130,31 @@ CLI::Option* Tool::add_file_option(CLI::App& app, const std::string& name, std::
   return option;
 }
 
-Input Tool::read_part(const std::string& path) {
-  Input input = read_input(path, InputForm::kJson);
+document::Input Tool::read_part(const std::string& path) {
+  document::Input input = read_input(path, InputForm::kJson);
   inputs_.pop_back();
   return input;
 }
 
-Input Tool::read_input(const std::string& path, InputForm form) {
+document::Input Tool::read_input(const std::string& path, InputForm form) {
   if (path == "-") {
     if (standard_input_taken_)
       throw Failure(ExitStatus::kUsage, "-: expected standard input for one input only");
     standard_input_taken_ = true;
   }
-  Input input{read_source(path), nullptr};
+  document::Input input{read_source(path), nullptr};
   const bool is_json =
       form == InputForm::kByContent ? looks_like_json(input.source.text) : form == InputForm::kJson;
-  if (is_json) input.document = parse_json(input.source);
+  if (is_json) input.document = document::parse_json(input.source);
   inputs_.push_back(provenance_input(input.source, input.document));
   return input;
 }
 
-void Tool::write_document(const std::string& path, Json document) {
+void Tool::write_document(const std::string& path, document::Json document) {
   if (!without_provenance_) {
     document["provenance"] = provenance(name_, STABLECUT_VERSION, result_arguments(), inputs_);
   }
-  write_text(path, json_text(document));
+  write_text(path, document::json_text(document));
 }
 
 void Tool::write_text(const std::string& path, std::string text) {
@@ -224,9 +225,10 @@ int Tool::parse(int argc, char** argv) {
   if (threads) threads_ = *threads;
   if (schema_option_->count() > 0) {
     const std::string kind = schema_.empty() ? main_kind_ : schema_;
-    const auto schema = schema_text(kind);
+    const auto schema = document::schema_text(kind);
     if (!schema) {
-      throw Failure(ExitStatus::kUsage, "--print-schema: " + kind + ": expected one of " + schema_kinds());
+      throw Failure(ExitStatus::kUsage,
+                    "--print-schema: " + kind + ": expected one of " + document::schema_kinds());
     }
     outputs_.add("-", std::string(*schema));
     return 1;
@@ -246,7 +248,7 @@ int Tool::main(int argc, char** argv) {
     return static_cast<int>(ExitStatus::kDone);
   } catch (const Failure& failure) {
     return end(failure.status(), failure.what());
-  } catch (const DataError& error) {
+  } catch (const document::DataError& error) {
     return end(ExitStatus::kData, error.what());
   } catch (const InvalidArgument& error) {
     return end(ExitStatus::kData, error.what());

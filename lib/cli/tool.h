@@ -11,13 +11,11 @@
 #include "base/progress.h"
 #include "base/range.h"
 #include "cli/output.h"
-#include "document/frf_unit.h"
-#include "document/provenance.h"
-#include "document/schemas.h"
+#include "cli/provenance.h"
+#include "document/kinds/schemas.h"
+#include "document/measured/frf_unit.h"
 
 namespace stablecut::cli {
-
-using stablecut::Input;
 
 /// What an input is read as; by content one that begins with { or [ is JSON.
 enum class InputForm { kByContent, kJson, kText };
@@ -38,14 +36,14 @@ class Tool {
   virtual void run() = 0;
 
   /// The main input (INPUT, standard input by default) or another; remembered for the provenance.
-  Input read_main_input(InputForm form) { return read_input(input_, form); }
-  Input read_input(const std::string& path, InputForm form);
+  document::Input read_main_input(InputForm form) { return read_input(input_, form); }
+  document::Input read_input(const std::string& path, InputForm form);
   const std::string& main_input() const { return input_; }
   /// A part of the tool's own result: not an input of the document.
-  Input read_part(const std::string& path);
+  document::Input read_part(const std::string& path);
 
   /// Adds provenance and takes the document as an output; "-" is standard output.
-  void write_document(const std::string& path, Json document);
+  void write_document(const std::string& path, document::Json document);
   /// Takes a text that is no document, without provenance, as an output.
   void write_text(const std::string& path, std::string text);
   const std::string& main_output() const { return output_; }
@@ -105,7 +103,8 @@ CLI::Option* add_integer_option(CLI::App& app, const std::string& name, std::opt
                                 const std::string& description);
 
 /// --unit: a displacement, velocity or acceleration over a force.
-CLI::Option* add_unit_option(CLI::App& app, std::optional<FrfUnit>& value, const std::string& description);
+CLI::Option* add_unit_option(CLI::App& app, std::optional<document::FrfUnit>& value,
+                             const std::string& description);
 
 /// An option whose text must be one of the words, separated by | in `words`.
 CLI::Option* add_choice_option(CLI::App& app, const std::string& name, std::string& value,

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/units.h"
 
-namespace stablecut {
+namespace stablecut::dynamics {
 
 bool FrequencyResponseEntry::same_places(const FrequencyResponseEntry& other) const {
   return response == other.response && reference == other.reference &&
@@ -167,4 +167,4 @@ Eigen::VectorXd known_variance(const FrequencyResponseEntry& entry) {
   return without_zeros((1 - coherence) / (coherence * averages) * entry.h.array().abs2(), entry.h);
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::dynamics

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace stablecut {
+namespace stablecut::dynamics {
 
 /// Displacement, velocity or acceleration over force: m/N, m/(N s), m/(N s2).
 enum class Quantity { kReceptance = 0, kMobility = 1, kAccelerance = 2 };
@@ -62,4 +62,4 @@ bool same_values(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 /// instead.
 Eigen::VectorXd known_variance(const FrequencyResponseEntry& entry);
 
-}  // namespace stablecut
+}  // namespace stablecut::dynamics

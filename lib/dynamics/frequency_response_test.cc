@@ -7,6 +7,7 @@
 #include "base/units.h"
 
 using namespace stablecut;
+using namespace stablecut::dynamics;
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/units.h"
 
-namespace stablecut {
+namespace stablecut::dynamics {
 
 std::complex<double> Mode::pole() const {
   const double omega_n = rad_per_s_from_hz(frequency_hz);
@@ -140,4 +140,4 @@ Eigen::MatrixXd normalisation_slope(const Mode& mode) {
   return slope;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::dynamics

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace stablecut {
+namespace stablecut::dynamics {
 
 /// One complex mode. Its part of the receptance is psi_r psi_l^T / (i w - lambda) + conjugate pole and
 /// vectors.
@@ -58,4 +58,4 @@ Mode normalised(Mode mode);
 /// lambda, and real and imaginary parts of psi_r, then of psi_l: [2 + 4 dofs square].
 Eigen::MatrixXd normalisation_slope(const Mode& mode);
 
-}  // namespace stablecut
+}  // namespace stablecut::dynamics

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 using namespace stablecut;
+using namespace stablecut::dynamics;
 using Complex = std::complex<double>;
 
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace stablecut {
+namespace stablecut::dynamics {
 namespace {
 
 constexpr Eigen::Index kHalfWindow = 24;
@@ -163,4 +163,4 @@ double correlation_length(const Eigen::VectorXcd& residual) {
   return length;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::dynamics

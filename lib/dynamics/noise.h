@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace stablecut {
+namespace stablecut::dynamics {
 
 /// How the noise of a curve may depend on the line: standard deviations up to a factor, each [lines].
 using NoiseShapes = std::vector<Eigen::VectorXd>;
@@ -34,4 +34,4 @@ ResidualNoise residual_noise(const Eigen::VectorXcd& residual, const Eigen::Vect
 /// Correlation length of residuals in lines: 1 for white noise, more for a misfit that is smooth over lines.
 double correlation_length(const Eigen::VectorXcd& residual);
 
-}  // namespace stablecut
+}  // namespace stablecut::dynamics

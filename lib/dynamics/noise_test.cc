@@ -4,6 +4,7 @@
 #include <random>
 
 using namespace stablecut;
+using namespace stablecut::dynamics;
 
 namespace {
 

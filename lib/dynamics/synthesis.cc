@@ -3,10 +3,10 @@
 #include <cmath>
 #include <random>
 
-#include "base/normal.h"
 #include "base/units.h"
+#include "numerics/random_normal.h"
 
-namespace stablecut {
+namespace stablecut::dynamics {
 Eigen::MatrixXcd receptance_at(const ModalModel& model, std::complex<double> s) {
   const auto n = static_cast<Eigen::Index>(model.dofs.size());
   Eigen::MatrixXcd h = Eigen::MatrixXcd::Zero(n, n);
@@ -52,9 +52,9 @@ void add_noise(FrequencyResponse& frf, const NoiseLevel& level) {
       entry.variance.array() += std::pow(ratio(*level.floor_db), 2) * mean_square;
     }
     for (Eigen::Index line = 0; line < lines; ++line) {
-      entry.h[line] += std::sqrt(entry.variance[line]) * unit_complex_normal(generator);
+      entry.h[line] += std::sqrt(entry.variance[line]) * numerics::unit_complex_normal(generator);
     }
   }
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::dynamics

@@ -9,7 +9,7 @@
 #include "dynamics/frequency_response.h"
 #include "dynamics/modal_model.h"
 
-namespace stablecut {
+namespace stablecut::dynamics {
 
 /// Receptance matrix [dofs x dofs], m/N, at the complex frequency s (rad/s; s = i omega on the axis), eq.
 /// (6-22).
@@ -28,4 +28,4 @@ struct NoiseLevel {
 /// Adds noise, and sets each entry's variance to that of the noise. The same seed gives the same noise.
 void add_noise(FrequencyResponse& frf, const NoiseLevel& level);
 
-}  // namespace stablecut
+}  // namespace stablecut::dynamics

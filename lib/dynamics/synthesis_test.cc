@@ -6,6 +6,7 @@
 #include "base/units.h"
 
 using namespace stablecut;
+using namespace stablecut::dynamics;
 using Complex = std::complex<double>;
 
 namespace {

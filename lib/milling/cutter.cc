@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/units.h"
 
-namespace stablecut {
+namespace stablecut::milling {
 namespace {
 
 // Breakpoints closer than this are one: entry and exit fall on each other when a whole number of pitches is
@@ -211,4 +211,4 @@ Eigen::Matrix2d mean_directional_coefficients(const Cutter& cutter, double from_
   return sum / (to_rad - from_rad);
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::milling

@@ -10,7 +10,7 @@
 #include <functional>
 #include <vector>
 
-namespace stablecut {
+namespace stablecut::milling {
 
 struct Cutter {
   int teeth = 0;                  ///< N, at least 1
@@ -72,4 +72,4 @@ CutSchedule cut_schedule(const Cutter& cutter, double revolutions_per_s, double 
 /// is the angle of tooth 1. Teeth may enter or leave inside. N/m2.
 Eigen::Matrix2d mean_directional_coefficients(const Cutter& cutter, double from_rad, double to_rad);
 
-}  // namespace stablecut
+}  // namespace stablecut::milling

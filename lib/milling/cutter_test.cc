@@ -5,9 +5,10 @@
 
 #include "base/error.h"
 #include "base/units.h"
-#include "milling/exponential_moments.h"
+#include "numerics/exponential_moments.h"
 
 using namespace stablecut;
+using namespace stablecut::milling;
 
 namespace {
 
@@ -24,7 +25,7 @@ Eigen::Matrix2d coefficients(const DirectionalFactors& factors) { return factors
 
 // The coefficients over a period, integrated piece by piece.
 Eigen::Matrix2d integrated(const CutSchedule& schedule) {
-  const GaussRule rule = gauss_legendre(40);
+  const numerics::GaussRule rule = numerics::gauss_legendre(40);
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
   for (const CutPiece& piece : schedule.pieces) {
     const double half = (piece.to_rad - piece.from_rad) / 2;

@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "base/units.h"
-#include "milling/multipliers.h"
+#include "numerics/eigenvalues.h"
 
-namespace stablecut {
+namespace stablecut::milling {
 namespace {
 
 using Complex = std::complex<double>;
@@ -17,7 +17,7 @@ using Coefficients = Eigen::Matrix<double, kNodes, 1>;
 
 // Branches that come closer to the largest modulus than this share could be the largest.
 constexpr double kRivalGap = 0.1;
-static_assert(kRivalGap < 1 - kLeading);
+static_assert(kRivalGap < 1 - numerics::kLeading);
 // A branch below the largest modulus may be wrong by this share of the distance.
 constexpr double kShareOfGap = 0.03;
 // Panel widths, of the largest depth.
@@ -200,7 +200,8 @@ double DepthScan::resolve(Panel& panel) const {
     const double largest = multipliers[i].cwiseAbs2().maxCoeff();
     panel.radius[i] = std::sqrt(largest);
     for (const Complex& value : multipliers[i]) {
-      if (value.imag() >= 0 && std::norm(value) >= kLeading * kLeading * largest) leading[i].push_back(value);
+      if (value.imag() >= 0 && std::norm(value) >= numerics::kLeading * numerics::kLeading * largest)
+        leading[i].push_back(value);
     }
   }
 
@@ -301,7 +302,7 @@ std::vector<double> DepthScan::spectral_radii(const std::vector<double>& depths_
     // Multipliers are of the period, radii of one tooth.
     result.push_back(value && map_.passes() > 1 ? std::pow(*value, 1.0 / map_.passes()) : value.value_or(0));
   }
-  const std::vector<double> computed = stablecut::spectral_radii(map_, missing);
+  const std::vector<double> computed = milling::spectral_radii(map_, missing);
   for (std::size_t i = 0; i < missing.size(); ++i) result[missing_index[i]] = computed[i];
   return result;
 }
@@ -412,4 +413,4 @@ std::vector<StabilityBoundary> DepthScan::boundaries() const {
   return result;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::milling

@@ -15,7 +15,7 @@
 
 #include "milling/floquet.h"
 
-namespace stablecut {
+namespace stablecut::milling {
 
 /// A depth at which a cut becomes unstable or stable again.
 struct StabilityBoundary {
@@ -78,4 +78,4 @@ class DepthScan {
   std::vector<Panel> panels_;
 };
 
-}  // namespace stablecut
+}  // namespace stablecut::milling

@@ -7,6 +7,7 @@
 #include "milling/spectral.h"
 
 using namespace stablecut;
+using namespace stablecut::milling;
 
 namespace {
 

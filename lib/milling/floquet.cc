@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "base/units.h"
-#include "milling/multiplier_lanes.h"
-#include "milling/multipliers.h"
+#include "numerics/eigenvalue_lanes.h"
+#include "numerics/eigenvalues.h"
 
-namespace stablecut {
+namespace stablecut::milling {
 namespace {
 
 using Complex = std::complex<double>;
@@ -54,10 +54,11 @@ std::vector<Eigen::VectorXcd> leading_multipliers(std::vector<Eigen::MatrixXd> m
       padded.topLeftCorner(matrix.rows(), matrix.rows()) = matrix;
       matrix = std::move(padded);
     }
-    return eigenvalues_of_each(monodromy);
+    return numerics::eigenvalues_of_each(monodromy);
   }
   std::vector<Eigen::VectorXcd> values;
-  for (Eigen::MatrixXd& matrix : monodromy) values.push_back(leading_eigenvalues(std::move(matrix), states));
+  for (Eigen::MatrixXd& matrix : monodromy)
+    values.push_back(numerics::leading_eigenvalues(std::move(matrix), states));
   return values;
 }
 
@@ -112,4 +113,4 @@ CriticalMultiplier critical_multiplier(const PeriodMap& map, double depth_m, Com
   return critical;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::milling

@@ -7,7 +7,7 @@
 
 #include "milling/structure.h"
 
-namespace stablecut {
+namespace stablecut::milling {
 
 /// The cutting force's impulse around a time in the period.
 struct ForceImpulse {
@@ -74,4 +74,4 @@ struct CriticalMultiplier {
 /// `near` is the largest multiplier but for some rounding or a step in depth.
 CriticalMultiplier critical_multiplier(const PeriodMap& map, double depth_m, std::complex<double> near);
 
-}  // namespace stablecut
+}  // namespace stablecut::milling

@@ -13,7 +13,7 @@
 #include "milling/semi_discretization.h"
 #include "milling/spectral.h"
 
-namespace stablecut {
+namespace stablecut::milling {
 namespace {
 
 // Wanted change of the spectral radius when points are added, of max(1, radius). Far above the limit the
@@ -183,4 +183,4 @@ StabilityChart stability_chart(const TipStructure& structure, const Cutter& cutt
   return chart;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::milling

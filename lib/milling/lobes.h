@@ -11,7 +11,7 @@
 #include "milling/cutter.h"
 #include "milling/floquet.h"
 
-namespace stablecut {
+namespace stablecut::milling {
 
 enum class StabilityMethod {
   kSpectral,            ///< collocation on the engaged arcs, refined until it has converged
@@ -72,4 +72,4 @@ StabilityChart stability_chart(const TipStructure& structure, const Cutter& cutt
                                const std::vector<double>& depths_m, const StabilityScheme& scheme,
                                bool with_grid, int threads, const Progress& progress = {});
 
-}  // namespace stablecut
+}  // namespace stablecut::milling

@@ -7,14 +7,14 @@
 #include "dynamics/modal_model.h"
 #include "milling/cutter.h"
 
-namespace stablecut::fixtures {
+namespace stablecut::milling::fixtures {
 
 /// The published one-mode benchmark: 0.03993 kg, 922 Hz, zeta 0.011, alike in every direction of `dofs`.
-inline ModalModel oscillator(const std::vector<std::string>& dofs) {
-  ModalModel model;
+inline dynamics::ModalModel oscillator(const std::vector<std::string>& dofs) {
+  dynamics::ModalModel model;
   model.dofs = dofs;
   for (std::size_t i = 0; i < dofs.size(); ++i) {
-    Mode mode;
+    dynamics::Mode mode;
     mode.frequency_hz = 922;
     mode.damping_ratio = 0.011;
     const auto n = static_cast<Eigen::Index>(dofs.size());
@@ -36,15 +36,15 @@ inline Cutter benchmark_cutter(bool up_milling, double radial_immersion, int tee
 }
 
 /// Coupled non-symmetric modes in x and y around the benchmark's stiffness, from a seed.
-inline ModalModel coupled_modes(int count, unsigned seed) {
+inline dynamics::ModalModel coupled_modes(int count, unsigned seed) {
   std::mt19937_64 generator(seed);
   const auto uniform = [&](double lo, double hi) {
     return lo + (hi - lo) * static_cast<double>(generator() >> 11) * 0x1p-53;
   };
-  ModalModel model;
+  dynamics::ModalModel model;
   model.dofs = {"x", "y"};
   for (int k = 0; k < count; ++k) {
-    Mode mode;
+    dynamics::Mode mode;
     mode.frequency_hz = uniform(80, 1200);
     mode.damping_ratio = uniform(0.005, 0.08);
     const auto complex = [&] {
@@ -60,4 +60,4 @@ inline ModalModel coupled_modes(int count, unsigned seed) {
   return model;
 }
 
-}  // namespace stablecut::fixtures
+}  // namespace stablecut::milling::fixtures

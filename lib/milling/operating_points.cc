@@ -6,7 +6,7 @@
 #include "base/parallel.h"
 #include "base/units.h"
 
-namespace stablecut {
+namespace stablecut::milling {
 namespace {
 
 constexpr double kFarthestMargins = 3;
@@ -177,4 +177,4 @@ std::vector<OperatingPoint> best_points(const std::vector<LimitPoint>& chart, co
   return points;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::milling

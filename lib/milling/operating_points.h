@@ -9,7 +9,7 @@
 #include "milling/cutter.h"
 #include "milling/structure.h"
 
-namespace stablecut {
+namespace stablecut::milling {
 
 /// A limit depth at a speed; no depth: stable to the largest one.
 struct LimitPoint {
@@ -71,4 +71,4 @@ struct OperatingPoint {
 std::vector<OperatingPoint> best_points(const std::vector<LimitPoint>& chart, const OperatingLimits& limits,
                                         std::size_t count, const LimitAt& limit_at, int threads);
 
-}  // namespace stablecut
+}  // namespace stablecut::milling

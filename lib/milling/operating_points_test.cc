@@ -9,6 +9,7 @@
 #include "milling/milling_fixtures_test.h"
 
 using namespace stablecut;
+using namespace stablecut::milling;
 
 namespace {
 

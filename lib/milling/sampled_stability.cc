@@ -6,12 +6,12 @@
 #include <limits>
 #include <random>
 
-#include "base/normal.h"
 #include "base/parallel.h"
 #include "milling/depth_scan.h"
 #include "milling/spectral.h"
+#include "numerics/random_normal.h"
 
-namespace stablecut {
+namespace stablecut::milling {
 namespace {
 
 constexpr double kLeastShare = 0.01;  // of its mean that a positive parameter keeps
@@ -30,9 +30,9 @@ Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance) {
 }
 
 // The model with its parameters moved, in the order of a covariance.
-ModalModel moved(ModalModel model, const Eigen::VectorXd& by) {
+dynamics::ModalModel moved(dynamics::ModalModel model, const Eigen::VectorXd& by) {
   Eigen::Index at = 0;
-  for (Mode& mode : model.modes) {
+  for (dynamics::Mode& mode : model.modes) {
     mode.frequency_hz = std::max(mode.frequency_hz + by[at], kLeastShare * mode.frequency_hz);
     mode.damping_ratio = std::clamp(mode.damping_ratio + by[at + 1], kLeastShare * mode.damping_ratio, 0.99);
     at += 2;
@@ -58,11 +58,11 @@ std::optional<double> quantile(const std::vector<double>& sorted, double share) 
 
 }  // namespace
 
-std::vector<SampledCut> sampled_cuts(const ModalModel& model, const Cutter& cutter,
+std::vector<SampledCut> sampled_cuts(const dynamics::ModalModel& model, const Cutter& cutter,
                                      const CoefficientDeviations& deviations, int count, unsigned seed) {
   const Eigen::MatrixXd root = root_of(model.covariance);
   std::mt19937_64 generator(seed);
-  const auto normal = [&] { return std::sqrt(2.0) * unit_complex_normal(generator).real(); };
+  const auto normal = [&] { return std::sqrt(2.0) * numerics::unit_complex_normal(generator).real(); };
   std::vector<SampledCut> samples;
   while (static_cast<int>(samples.size()) < count) {
     Eigen::VectorXd z(root.cols());
@@ -116,4 +116,4 @@ SampledStability sampled_stability(const std::vector<SampledCut>& samples,
   return result;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::milling

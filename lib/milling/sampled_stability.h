@@ -11,7 +11,7 @@
 #include "milling/cutter.h"
 #include "milling/structure.h"
 
-namespace stablecut {
+namespace stablecut::milling {
 
 /// Standard deviations of the cutting coefficients, N/m2.
 struct CoefficientDeviations {
@@ -26,7 +26,7 @@ struct SampledCut {
 /// Cuts with normally distributed parameters of the model, as its covariance says (none: exact), and
 /// coefficients; in pairs on opposite sides of the mean. Damping and Kt are kept from falling below a
 /// hundredth of their mean, Kr below 0. The same numbers for the same seed.
-std::vector<SampledCut> sampled_cuts(const ModalModel& model, const Cutter& cutter,
+std::vector<SampledCut> sampled_cuts(const dynamics::ModalModel& model, const Cutter& cutter,
                                      const CoefficientDeviations& deviations, int count, unsigned seed);
 
 struct SampledStability {
@@ -41,4 +41,4 @@ SampledStability sampled_stability(const std::vector<SampledCut>& samples,
                                    const std::vector<double>& depths_m, const std::vector<int>& points,
                                    bool with_grid, int threads, const Progress& progress = {});
 
-}  // namespace stablecut
+}  // namespace stablecut::milling

@@ -7,10 +7,11 @@
 #include "milling/milling_fixtures_test.h"
 
 using namespace stablecut;
+using namespace stablecut::milling;
 
 namespace {
 
-double limit_with(const ModalModel& model, const Cutter& cutter) {
+double limit_with(const dynamics::ModalModel& model, const Cutter& cutter) {
   const TipStructure structure = tip_structure(model);
   const auto chart = stability_chart(structure, cutter, {8000.0 / 60}, {2e-3}, {}, false, 1);
   const StabilityCrossing* limit = limit_of(chart.crossings[0]);
@@ -21,7 +22,7 @@ double limit_with(const ModalModel& model, const Cutter& cutter) {
 }  // namespace
 
 TEST_CASE("without deviations every sample is the cut itself") {
-  const ModalModel model = fixtures::coupled_modes(3, 5);
+  const dynamics::ModalModel model = fixtures::coupled_modes(3, 5);
   const Cutter cutter = fixtures::benchmark_cutter(true, 0.3);
   const double limit = limit_with(model, cutter);
   const auto sampled = sampled_stability(sampled_cuts(model, cutter, {}, 4, 1), {8000.0 / 60},
@@ -34,7 +35,7 @@ TEST_CASE("without deviations every sample is the cut itself") {
 }
 
 TEST_CASE("an interval of the limit is where the parameters' intervals put it") {
-  ModalModel model = fixtures::oscillator({"x"});
+  dynamics::ModalModel model = fixtures::oscillator({"x"});
   const Cutter cutter = fixtures::benchmark_cutter(false, 1);
   const double limit = limit_with(model, cutter);
   // At this speed the limit grows with Kt, which turns the force: its quantiles are the limits at Kt's.
@@ -57,7 +58,7 @@ TEST_CASE("an interval of the limit is where the parameters' intervals put it") 
   // The same of a damping ratio in the table's covariance.
   model.covariance = Eigen::MatrixXd::Zero(6, 6);
   model.covariance(1, 1) = std::pow(0.05 * 0.011, 2);
-  ModalModel more = model;
+  dynamics::ModalModel more = model;
   more.modes[0].damping_ratio *= 1 + 1.96 * 0.05;
   const auto of_table =
       sampled_stability(sampled_cuts(model, cutter, {}, 200, 3), {8000.0 / 60}, {4e-3}, {24}, false, 1);
@@ -66,7 +67,7 @@ TEST_CASE("an interval of the limit is where the parameters' intervals put it") 
 }
 
 TEST_CASE("a quantile above the largest depth is unknown") {
-  const ModalModel model = fixtures::oscillator({"x"});
+  const dynamics::ModalModel model = fixtures::oscillator({"x"});
   const Cutter cutter = fixtures::benchmark_cutter(false, 1);
   const double limit = limit_with(model, cutter);
   const auto sampled = sampled_stability(sampled_cuts(model, cutter, {0.05 * cutter.kt_n_per_m2, 0}, 100, 3),

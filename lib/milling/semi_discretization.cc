@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <unsupported/Eigen/MatrixFunctions>
 
-namespace stablecut {
+namespace stablecut::milling {
 
 SemiDiscretizationMap::SemiDiscretizationMap(const TipStructure& structure, const Cutter& cutter,
                                              double revolutions_per_s, int intervals)
@@ -77,4 +77,4 @@ std::vector<ForceImpulse> SemiDiscretizationMap::forces(double, std::complex<dou
   return result;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::milling

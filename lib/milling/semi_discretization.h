@@ -7,7 +7,7 @@
 #include "milling/cutter.h"
 #include "milling/floquet.h"
 
-namespace stablecut {
+namespace stablecut::milling {
 
 /// Only the tip displacement is delayed, and with w_a = w_b = 1/2 only the mean of its values at an
 /// interval's two ends; the textbook matrix of (m + 1) full states has the same nonzero eigenvalues.
@@ -30,4 +30,4 @@ class SemiDiscretizationMap : public PeriodMap {
   std::vector<Eigen::MatrixXd> mean_coefficient_;  // per interval; empty where nothing cuts
 };
 
-}  // namespace stablecut
+}  // namespace stablecut::milling

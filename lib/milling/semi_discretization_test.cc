@@ -8,6 +8,7 @@
 #include "milling/milling_fixtures_test.h"
 
 using namespace stablecut;
+using namespace stablecut::milling;
 using Complex = std::complex<double>;
 
 namespace {
@@ -47,9 +48,9 @@ double textbook_radius(const TipStructure& structure, const Cutter& cutter, doub
 }  // namespace
 
 TEST_CASE("the reduced semi-discretization has the textbook matrix's spectral radius") {
-  const ModalModel models[] = {fixtures::oscillator({"x"}), fixtures::oscillator({"x", "y"}),
-                               fixtures::coupled_modes(3, 5)};
-  for (const ModalModel& model : models) {
+  const dynamics::ModalModel models[] = {fixtures::oscillator({"x"}), fixtures::oscillator({"x", "y"}),
+                                         fixtures::coupled_modes(3, 5)};
+  for (const dynamics::ModalModel& model : models) {
     const TipStructure structure = tip_structure(model);
     for (const auto& [teeth, immersion] : {std::pair{2, 0.25}, std::pair{3, 1.0}, std::pair{1, 0.1}}) {
       for (const int m : {2, 5, 9}) {

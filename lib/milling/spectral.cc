@@ -9,18 +9,19 @@
 
 #include "base/error.h"
 #include "base/units.h"
-#include "milling/exponential_moments.h"
+#include "numerics/exponential_moments.h"
 
-namespace stablecut {
+namespace stablecut::milling {
 namespace {
 
 using Complex = std::complex<double>;
 
 // Coefficients of P_0 ... P_{n-1} from values at n Gauss nodes (exact: the products have degree below 2n).
-Eigen::MatrixXd legendre_from_nodes(const GaussRule& rule) {
+Eigen::MatrixXd legendre_from_nodes(const numerics::GaussRule& rule) {
   const Eigen::Index n = rule.node.size();
   Eigen::MatrixXd transform(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) transform.col(i) = rule.weight[i] * legendre_values(rule.node[i], n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    transform.col(i) = rule.weight[i] * numerics::legendre_values(rule.node[i], n);
   for (Eigen::Index j = 0; j < n; ++j) transform.row(j) *= static_cast<double>(2 * j + 1) / 2;
   return transform;
 }
@@ -28,14 +29,15 @@ Eigen::MatrixXd legendre_from_nodes(const GaussRule& rule) {
 // Gauss points of a piece, alike for pieces of the same length.
 struct Shape {
   double length_s;
-  GaussRule rule;
+  numerics::GaussRule rule;
   Eigen::MatrixXd transform;
 
   Shape(double length, int points)
-      : length_s(length), rule(gauss_legendre(points)), transform(legendre_from_nodes(rule)) {}
+      : length_s(length), rule(numerics::gauss_legendre(points)), transform(legendre_from_nodes(rule)) {}
   // [points]: a mode's value at a place in [-1, 1] of the piece, per force value at the nodes.
   Eigen::RowVectorXcd response(Complex lambda, double place) const {
-    const Eigen::VectorXcd moments = exponential_moments(lambda * (length_s / 2), place, rule.node.size());
+    const Eigen::VectorXcd moments =
+        numerics::exponential_moments(lambda * (length_s / 2), place, rule.node.size());
     return (length_s / 2) * (moments.transpose() * transform);
   }
   // [points + 1 x points]: at the nodes and at the end.
@@ -43,8 +45,8 @@ struct Shape {
     const Eigen::Index n = rule.node.size();
     Eigen::MatrixXcd moments(n + 1, n);
     for (Eigen::Index i = 0; i < n; ++i)
-      moments.row(i) = exponential_moments(lambda * (length_s / 2), rule.node[i], n).transpose();
-    moments.row(n) = exponential_moments(lambda * (length_s / 2), 1.0, n).transpose();
+      moments.row(i) = numerics::exponential_moments(lambda * (length_s / 2), rule.node[i], n).transpose();
+    moments.row(n) = numerics::exponential_moments(lambda * (length_s / 2), 1.0, n).transpose();
     return (length_s / 2) * moments * transform;
   }
 };
@@ -300,4 +302,4 @@ std::vector<ForceImpulse> SpectralMap::forces(double depth_m, Complex, const Eig
   return result;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::milling

@@ -13,7 +13,7 @@
 #include "milling/cutter.h"
 #include "milling/floquet.h"
 
-namespace stablecut {
+namespace stablecut::milling {
 
 /// Responses at unit depth of what the nodes sense and of the state at the period's end. A row is what is
 /// sensed at a node: a displacement, less what was left by the tooth before, or a velocity (process damping).
@@ -61,4 +61,4 @@ class SpectralMap : public PeriodMap {
   std::optional<Collocation> fixed_;  // with straight teeth
 };
 
-}  // namespace stablecut
+}  // namespace stablecut::milling

@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "base/units.h"
-#include "milling/exponential_moments.h"
 #include "milling/milling_fixtures_test.h"
 #include "milling/semi_discretization.h"
+#include "numerics/exponential_moments.h"
 
 using namespace stablecut;
+using namespace stablecut::milling;
 
 TEST_CASE("without a cut the multipliers are those of free flight") {
   const TipStructure structure = tip_structure(fixtures::coupled_modes(6, 3));
@@ -88,7 +89,7 @@ TEST_CASE("helix: a slight one is the plain case, and pitches by tooth are the p
 TEST_CASE("helix: discs of straight teeth, each behind the one below, tend to it") {
   const TipStructure structure = tip_structure(fixtures::coupled_modes(4, 6));
   const double depth = 2e-3, pitch = kTwoPi / 3;
-  const GaussRule discs = gauss_legendre(30);
+  const numerics::GaussRule discs = numerics::gauss_legendre(30);
   for (const double lag_at_depth : {0.2, 1.3, -0.5}) {
     Cutter cutter = fixtures::benchmark_cutter(true, 0.3, 3);
     const auto lag = [&](Eigen::Index i) { return lag_at_depth * (1 + discs.node[i]) / 2; };
@@ -194,7 +195,7 @@ TEST_CASE("process damping converges, and it raises the limit at low speed") {
 
 // Four teeth in a slot: two are in cut, at right angles, and their damping is the same in every direction.
 TEST_CASE("process damping of four teeth in a slot is viscous damping of the structure") {
-  const ModalModel model = fixtures::oscillator({"x", "y"});
+  const dynamics::ModalModel model = fixtures::oscillator({"x", "y"});
   Cutter cutter = fixtures::benchmark_cutter(true, 1, 4);
   for (const double speed : {15.0, 80.0}) {
     const double depth = 0.2e-3;
@@ -202,8 +203,8 @@ TEST_CASE("process damping of four teeth in a slot is viscous damping of the str
     cutter.damping_n_per_m = 2e5;
     const TipStructure structure = tip_structure(model);
     const double damped = spectral_radius(SpectralMap(structure, cutter, speed, 90), depth);
-    ModalModel viscous = model;
-    for (Mode& mode : viscous.modes) {
+    dynamics::ModalModel viscous = model;
+    for (dynamics::Mode& mode : viscous.modes) {
       // c / (2 m w) more, with the mass of the fixture; the residue keeps the mass.
       mode.damping_ratio += depth * 2e5 / (kPi * 0.02 * speed) / (2 * 0.03993 * kTwoPi * 922);
       mode.psi_l = mode.psi_r / std::complex<double>(0, 2 * 0.03993 * mode.pole().imag());

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 
-namespace stablecut {
+namespace stablecut::milling {
 
 Eigen::MatrixXd TipStructure::displacement_of_state() const {
   Eigen::MatrixXd result(directions(), 2 * modes());
@@ -41,7 +41,7 @@ Eigen::MatrixXcd TipStructure::mode_receptances(std::complex<double> s, const Ei
   return moved;
 }
 
-TipStructure tip_structure(const ModalModel& model) {
+TipStructure tip_structure(const dynamics::ModalModel& model) {
   TipStructure structure;
   std::vector<Eigen::Index> rows;
   const char* const names[] = {"x", "y"};
@@ -53,13 +53,13 @@ TipStructure tip_structure(const ModalModel& model) {
   }
   if (rows.empty()) throw InvalidArgument("dofs: expected x, y or both");
 
-  std::vector<Mode> kept;
+  std::vector<dynamics::Mode> kept;
   for (std::size_t k = 0; k < model.modes.size(); ++k) {
-    Mode mode = model.modes[k];
+    dynamics::Mode mode = model.modes[k];
     mode.psi_r = mode.psi_r(rows).eval();
     mode.psi_l = mode.psi_l(rows).eval();
     if (!mode.psi_r.isZero(0) && !mode.psi_l.isZero(0)) {
-      kept.push_back(normalised(mode));
+      kept.push_back(dynamics::normalised(mode));
       structure.source.push_back(k);
     }
   }
@@ -68,7 +68,7 @@ TipStructure tip_structure(const ModalModel& model) {
   structure.psi_r.resize(structure.directions(), n);
   structure.psi_l.resize(structure.directions(), n);
   for (Eigen::Index k = 0; k < n; ++k) {
-    const Mode& mode = kept[static_cast<std::size_t>(k)];
+    const dynamics::Mode& mode = kept[static_cast<std::size_t>(k)];
     structure.lambda[k] = mode.pole();
     structure.psi_r.col(k) = mode.psi_r;
     structure.psi_l.col(k) = mode.psi_l;
@@ -77,4 +77,4 @@ TipStructure tip_structure(const ModalModel& model) {
   return structure;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::milling

@@ -7,7 +7,7 @@
 
 #include "dynamics/modal_model.h"
 
-namespace stablecut {
+namespace stablecut::milling {
 
 /// q' = Lambda q + Psi_L^T f, r = 2 Re(Psi_R q): one complex state for each pair of poles (6-20), (6-22).
 struct TipStructure {
@@ -35,6 +35,6 @@ struct TipStructure {
 /// Directions x and y of the model. Other dofs are left out, and so is a mode that no force in x or y drives
 /// or that moves neither: the result may have no modes, and then nothing can chatter. Throws InvalidArgument
 /// when the model has neither direction.
-TipStructure tip_structure(const ModalModel& model);
+TipStructure tip_structure(const dynamics::ModalModel& model);
 
-}  // namespace stablecut
+}  // namespace stablecut::milling

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <complex>
 
-namespace stablecut {
+namespace stablecut::modal {
 namespace {
 
 using Complex = std::complex<double>;
@@ -135,4 +135,4 @@ std::vector<Eigen::Index> disturbed_lines(const Eigen::VectorXd& hz, const Eigen
   return single;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace stablecut {
+namespace stablecut::modal {
 
 /// Lines on which the value stands out of its neighbours by more than ten deviations of the noise (`variance`
 /// [lines], of the complex value): out of a cubic through four of them, and out of a resonance that eight of
@@ -13,4 +13,4 @@ namespace stablecut {
 std::vector<Eigen::Index> disturbed_lines(const Eigen::VectorXd& hz, const Eigen::VectorXcd& h,
                                           const Eigen::VectorXd& variance);
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

@@ -15,7 +15,7 @@
 #include "modal/maximum_likelihood.h"
 #include "modal/mode_search.h"
 
-namespace stablecut {
+namespace stablecut::modal {
 namespace {
 
 using Complex = std::complex<double>;
@@ -25,7 +25,7 @@ constexpr double kLeastReceptance = 1e-40,
                  kLargestReceptance = 1e40;  // m/N; outside are errors of units or of a line
 constexpr double kNoFit = 0.5;               // relative error from which on modes explain nothing
 
-FitData group_data(const FrequencyResponse& measured, const DirectionGroup& group,
+FitData group_data(const dynamics::FrequencyResponse& measured, const DirectionGroup& group,
                    const std::vector<std::string>& dofs) {
   FitData data;
   data.s = Complex(0, kTwoPi) * measured.frequency_hz.cast<Complex>();
@@ -40,8 +40,8 @@ FitData group_data(const FrequencyResponse& measured, const DirectionGroup& grou
   return data;
 }
 
-std::vector<std::string> group_directions(const FrequencyResponse& measured, const DirectionGroup& group,
-                                          const std::vector<std::string>& all) {
+std::vector<std::string> group_directions(const dynamics::FrequencyResponse& measured,
+                                          const DirectionGroup& group, const std::vector<std::string>& all) {
   std::vector<std::string> names;
   for (const std::string& name : all) {
     const bool used = std::any_of(group.entries.begin(), group.entries.end(), [&](std::size_t e) {
@@ -53,17 +53,19 @@ std::vector<std::string> group_directions(const FrequencyResponse& measured, con
 }
 
 // Known variances of the group's curves; empty when any is unknown.
-std::vector<Eigen::VectorXd> known_variances(const FrequencyResponse& measured, const DirectionGroup& group) {
+std::vector<Eigen::VectorXd> known_variances(const dynamics::FrequencyResponse& measured,
+                                             const DirectionGroup& group) {
   std::vector<Eigen::VectorXd> result;
   for (const std::size_t e : group.entries) {
-    result.push_back(known_variance(measured.entries[e]));
+    result.push_back(dynamics::known_variance(measured.entries[e]));
     if (result.back().size() == 0) return {};
   }
   return result;
 }
 
 // Entries that the document does not have although it has both of their directions.
-std::string missing_entries(const FrequencyResponse& measured, const std::vector<std::string>& dofs) {
+std::string missing_entries(const dynamics::FrequencyResponse& measured,
+                            const std::vector<std::string>& dofs) {
   std::string list;
   for (const std::string& response : dofs) {
     for (const std::string& reference : dofs) {
@@ -91,7 +93,7 @@ struct Group {
   FitData data;
 };
 
-std::vector<Group> groups_of(const FrequencyResponse& measured, const FitOptions& options) {
+std::vector<Group> groups_of(const dynamics::FrequencyResponse& measured, const FitOptions& options) {
   const std::vector<DirectionGroup> parts = independent_groups(measured);
   if (parts.empty()) throw NoAnswer("all entries are zero: there is no mode to find");
   std::vector<Group> groups;
@@ -190,13 +192,13 @@ std::optional<Reciprocity> reciprocity_of(const Searches& searches) {
 
 // Adds a group's modes to the whole table: exact zeros where the group does not reach.
 void add_table(const FittedTable& table, const std::vector<std::string>& directions, double inflation,
-               ModalModel& model) {
+               dynamics::ModalModel& model) {
   const Eigen::Index before = model.covariance.rows(), whole = model.parameters_per_mode();
   const auto own = 2 + 4 * static_cast<Eigen::Index>(directions.size());
   std::vector<Eigen::Index> at;  // of the group's parameters in the whole covariance
   for (std::size_t k = 0; k < table.modes.size(); ++k) {
-    const Mode& mode = table.modes[k];
-    Mode added = mode;
+    const dynamics::Mode& mode = table.modes[k];
+    dynamics::Mode added = mode;
     added.psi_r = added.psi_l = Eigen::VectorXcd::Zero(static_cast<Eigen::Index>(model.dofs.size()));
     const Eigen::Index first = before + static_cast<Eigen::Index>(k) * whole;
     for (Eigen::Index p = 0; p < own; ++p) at.push_back(first + p);
@@ -224,19 +226,19 @@ void add_table(const FittedTable& table, const std::vector<std::string>& directi
   }
 }
 
-ModalModel sorted_by_frequency(const ModalModel& model) {
+dynamics::ModalModel sorted_by_frequency(const dynamics::ModalModel& model) {
   std::vector<std::size_t> order(model.modes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return model.modes[a].frequency_hz < model.modes[b].frequency_hz;
   });
-  return chosen_modes(model, order);
+  return dynamics::chosen_modes(model, order);
 }
 
 }  // namespace
 
-ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options) {
-  if (measured.quantity != Quantity::kReceptance) throw InvalidArgument("expected a receptance");
+ModalFit fit_modes(const dynamics::FrequencyResponse& measured, const FitOptions& options) {
+  if (measured.quantity != dynamics::Quantity::kReceptance) throw InvalidArgument("expected a receptance");
   if (measured.frequency_hz.size() < kLeastLines || measured.frequency_hz[0] < 0) {
     throw InvalidArgument("expected at least " + std::to_string(kLeastLines) +
                           " lines to fit modes to, not " + std::to_string(measured.frequency_hz.size()));
@@ -284,7 +286,7 @@ ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options)
     by_reciprocity = by_reciprocity || table.by_reciprocity;
     add_table(table, groups[g].directions, part.inflation(), fit.model);
   }
-  for (Mode& mode : fit.model.modes) {
+  for (dynamics::Mode& mode : fit.model.modes) {
     mode.out_of_band = mode.frequency_hz < measured.frequency_hz[0] ||
                        mode.frequency_hz > measured.frequency_hz[measured.frequency_hz.size() - 1];
   }
@@ -317,4 +319,4 @@ ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options)
   return fit;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

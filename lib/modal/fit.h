@@ -16,7 +16,7 @@
 #include "modal/fit_data.h"
 #include "modal/mode_parameters.h"
 
-namespace stablecut {
+namespace stablecut::modal {
 
 struct FitOptions {
   std::optional<int> modes;  ///< how many, instead of finding out; shared evenly among independent groups
@@ -49,7 +49,7 @@ struct CurveFit {
 };
 
 struct ModalFit {
-  ModalModel model;  ///< modes by frequency; out of band marked; with its covariance
+  dynamics::ModalModel model;  ///< modes by frequency; out of band marked; with its covariance
   ModeModel mode_model = ModeModel::kNonsymmetric;
   std::vector<ModelCriterion> criteria;  ///< of the models that were tried
   /// How many times less the residual tells than its length, 1 for white noise of the expected size: standard
@@ -72,6 +72,6 @@ struct ModalFit {
 ///
 /// `measured` must be a receptance with at least 8 lines above 0 Hz. Throws InvalidArgument for data that
 /// cannot be fitted, NoAnswer when no mode stands out, or the modes leave half of the curves unexplained.
-ModalFit fit_modes(const FrequencyResponse& measured, const FitOptions& options = {});
+ModalFit fit_modes(const dynamics::FrequencyResponse& measured, const FitOptions& options = {});
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

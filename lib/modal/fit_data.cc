@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace stablecut {
+namespace stablecut::modal {
 
 std::vector<std::size_t> FitData::vector_parts() const {
   constexpr std::size_t kNone = static_cast<std::size_t>(-1);
@@ -29,7 +29,7 @@ std::vector<std::size_t> FitData::vector_parts() const {
   return part;
 }
 
-std::vector<DirectionGroup> independent_groups(const FrequencyResponse& frf) {
+std::vector<DirectionGroup> independent_groups(const dynamics::FrequencyResponse& frf) {
   const std::vector<std::string> names = direction_names(frf);
   const auto index = [&](const std::string& name) {
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
@@ -66,7 +66,7 @@ std::vector<DirectionGroup> independent_groups(const FrequencyResponse& frf) {
   return groups;
 }
 
-std::vector<std::string> direction_names(const FrequencyResponse& frf) {
+std::vector<std::string> direction_names(const dynamics::FrequencyResponse& frf) {
   std::vector<std::string> names;
   const auto add = [&](const std::string& name) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
@@ -83,4 +83,4 @@ std::vector<std::string> direction_names(const FrequencyResponse& frf) {
   return names;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

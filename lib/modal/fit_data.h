@@ -7,7 +7,7 @@
 
 #include "dynamics/frequency_response.h"
 
-namespace stablecut {
+namespace stablecut::modal {
 
 /// One measured pair of directions.
 struct Curve {
@@ -40,9 +40,9 @@ struct DirectionGroup {
 };
 
 /// The groups in the order of their first entry.
-std::vector<DirectionGroup> independent_groups(const FrequencyResponse& frf);
+std::vector<DirectionGroup> independent_groups(const dynamics::FrequencyResponse& frf);
 
 /// Direction names in the order x, y, z, then as they come.
-std::vector<std::string> direction_names(const FrequencyResponse& frf);
+std::vector<std::string> direction_names(const dynamics::FrequencyResponse& frf);
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

@@ -8,14 +8,15 @@
 #include "modal/modal_fixtures_test.h"
 
 using namespace stablecut;
+using namespace stablecut::modal;
 using Complex = std::complex<double>;
 
 namespace {
 
 const Eigen::VectorXd kLines = Eigen::VectorXd::LinSpaced(2048, 1, 2000);
 
-double rebuild_error(const ModalFit& fit, const FrequencyResponse& measured) {
-  const FrequencyResponse fitted = synthesize(fit.model, measured.frequency_hz);
+double rebuild_error(const ModalFit& fit, const dynamics::FrequencyResponse& measured) {
+  const dynamics::FrequencyResponse fitted = dynamics::synthesize(fit.model, measured.frequency_hz);
   double error = 0, size = 0;
   for (const auto& entry : measured.entries) {
     const auto* other = fitted.find(entry.response, entry.reference);
@@ -27,8 +28,8 @@ double rebuild_error(const ModalFit& fit, const FrequencyResponse& measured) {
 }
 
 // Close pairs and heavy damping, where linear methods lose modes.
-ModalModel hard_case() {
-  ModalModel model = fixtures::close_pair();
+dynamics::ModalModel hard_case() {
+  dynamics::ModalModel model = fixtures::close_pair();
   model.modes.push_back(fixtures::mode(648, 0.01, {Complex(1, 0.2), Complex(-0.5, 0.1)},
                                        {Complex(2e-4, 0), Complex(1e-4, -1e-4)}));
   model.modes.push_back(fixtures::mode(905, 0.2, {Complex(0.8, 0.1), Complex(-0.9, 0.3)},
@@ -39,11 +40,11 @@ ModalModel hard_case() {
 }  // namespace
 
 TEST_CASE("the modes are found without a hint, with and without a known variance") {
-  const ModalModel truth = hard_case();
+  const dynamics::ModalModel truth = hard_case();
   for (const bool variance_known : {true, false}) {
     for (const std::uint64_t seed : {1, 2, 3}) {
-      FrequencyResponse measured = synthesize(truth, kLines);
-      add_noise(measured, {{}, 40.0, seed});
+      dynamics::FrequencyResponse measured = dynamics::synthesize(truth, kLines);
+      dynamics::add_noise(measured, {{}, 40.0, seed});
       if (!variance_known) {
         for (auto& entry : measured.entries) entry.variance.resize(0);
       }
@@ -54,7 +55,7 @@ TEST_CASE("the modes are found without a hint, with and without a known variance
       CHECK(fit.reduced_chi_square == Approx(1).margin(variance_known ? 0.05 : 0.2));
       REQUIRE(fit.model.modes.size() == truth.modes.size());
       for (std::size_t k = 0; k < truth.modes.size(); ++k) {
-        const Mode& mode = fit.model.modes[k];
+        const dynamics::Mode& mode = fit.model.modes[k];
         const Eigen::VectorXd deviation = fit.model.deviation(static_cast<Eigen::Index>(k));
         // 12 values in 6 runs: four standard deviations are passed once in 200.
         CHECK(std::abs(mode.frequency_hz - truth.modes[k].frequency_hz) < 4.5 * deviation[0]);
@@ -65,20 +66,21 @@ TEST_CASE("the modes are found without a hint, with and without a known variance
 }
 
 TEST_CASE("a doubled structure gives two rank-1 modes for each pole, exact zeros across") {
-  ModalModel truth;
+  dynamics::ModalModel truth;
   truth.dofs = {"x", "y"};
   for (const double frequency : {294.0, 1830.0}) {
     const Complex psi = std::sqrt(Complex(0, -1 / (2 * 0.05 * 6.283185307179586 * frequency)));
     truth.modes.push_back(fixtures::mode(frequency, 0.01, {psi, 0}, {psi, 0}));
     truth.modes.push_back(fixtures::mode(frequency, 0.01, {0, psi}, {0, psi}));
   }
-  const FrequencyResponse measured = synthesize(truth, Eigen::VectorXd::LinSpaced(2500, 1, 2500));
+  const dynamics::FrequencyResponse measured =
+      dynamics::synthesize(truth, Eigen::VectorXd::LinSpaced(2500, 1, 2500));
   const ModalFit fit = fit_modes(measured);
   REQUIRE(fit.model.modes.size() == 4);
   CHECK(rebuild_error(fit, measured) < 1e-9);
   CHECK_FALSE(fit.limited_by_model);
   for (std::size_t k = 0; k < 4; ++k) {
-    const Mode& mode = fit.model.modes[k];
+    const dynamics::Mode& mode = fit.model.modes[k];
     CHECK(mode.frequency_hz == Approx(truth.modes[k].frequency_hz).epsilon(1e-9));
     CHECK(mode.damping_ratio == Approx(0.01).epsilon(1e-7));
     CHECK(mode.psi_r.cwiseAbs().minCoeff() == 0);
@@ -87,11 +89,11 @@ TEST_CASE("a doubled structure gives two rank-1 modes for each pole, exact zeros
 }
 
 TEST_CASE("a fitted table comes back in the normalisation of the contract") {
-  const ModalModel truth = fixtures::close_pair();
-  const ModalFit fit = fit_modes(synthesize(truth, kLines));
+  const dynamics::ModalModel truth = fixtures::close_pair();
+  const ModalFit fit = fit_modes(dynamics::synthesize(truth, kLines));
   REQUIRE(fit.model.modes.size() == truth.modes.size());
   for (std::size_t k = 0; k < truth.modes.size(); ++k) {
-    const Mode expected = normalised(truth.modes[k]);
+    const dynamics::Mode expected = dynamics::normalised(truth.modes[k]);
     CHECK((fit.model.modes[k].psi_r - expected.psi_r).norm() < 1e-8 * expected.psi_r.norm());
     CHECK((fit.model.modes[k].psi_l - expected.psi_l).norm() < 1e-8 * expected.psi_l.norm());
     CHECK_FALSE(fit.model.modes[k].out_of_band);
@@ -99,22 +101,23 @@ TEST_CASE("a fitted table comes back in the normalisation of the contract") {
 }
 
 TEST_CASE("what lies outside the band is carried by modes marked so") {
-  ModalModel truth = fixtures::close_pair();
-  const FrequencyResponse whole = synthesize(truth, Eigen::VectorXd::LinSpaced(2000, 1, 1000));
-  const FrequencyResponse band = within_band(whole, 90, 400);
+  dynamics::ModalModel truth = fixtures::close_pair();
+  const dynamics::FrequencyResponse whole =
+      dynamics::synthesize(truth, Eigen::VectorXd::LinSpaced(2000, 1, 1000));
+  const dynamics::FrequencyResponse band = dynamics::within_band(whole, 90, 400);
   const ModalFit fit = fit_modes(band);
   CHECK(rebuild_error(fit, band) < 1e-6);
   int inside = 0;
-  for (const Mode& mode : fit.model.modes) inside += mode.out_of_band ? 0 : 1;
+  for (const dynamics::Mode& mode : fit.model.modes) inside += mode.out_of_band ? 0 : 1;
   CHECK(inside == 3);
   CHECK(fit.model.modes.back().out_of_band);
 }
 
 TEST_CASE("a model error ends the search without spurious modes") {
   // Hysteretic damping: no viscous mode fits it exactly.
-  FrequencyResponse measured;
+  dynamics::FrequencyResponse measured;
   measured.frequency_hz = Eigen::VectorXd::LinSpaced(2000, 1, 2000);
-  FrequencyResponseEntry entry;
+  dynamics::FrequencyResponseEntry entry;
   entry.response = entry.reference = "x";
   entry.h.resize(2000);
   for (Eigen::Index i = 0; i < 2000; ++i) {
@@ -133,36 +136,37 @@ TEST_CASE("a model error ends the search without spurious modes") {
 }
 
 TEST_CASE("the number of modes can be given") {
-  FrequencyResponse measured = synthesize(fixtures::close_pair(), kLines);
-  add_noise(measured, {{}, 40.0, 5});
+  dynamics::FrequencyResponse measured = dynamics::synthesize(fixtures::close_pair(), kLines);
+  dynamics::add_noise(measured, {{}, 40.0, 5});
   CHECK(fit_modes(measured, {3, ModeModel::kNonsymmetric, {}}).model.modes.size() == 3);
 }
 
 TEST_CASE("what cannot be fitted is said") {
-  const ModalModel truth = fixtures::close_pair();
-  CHECK_THROWS_AS(fit_modes(synthesize(truth, Eigen::VectorXd::LinSpaced(5, 1, 5))), InvalidArgument);
-  FrequencyResponse zeros = synthesize(truth, kLines);
+  const dynamics::ModalModel truth = fixtures::close_pair();
+  CHECK_THROWS_AS(fit_modes(dynamics::synthesize(truth, Eigen::VectorXd::LinSpaced(5, 1, 5))),
+                  InvalidArgument);
+  dynamics::FrequencyResponse zeros = dynamics::synthesize(truth, kLines);
   for (auto& entry : zeros.entries) entry.h.setZero();
   CHECK_THROWS_AS(fit_modes(zeros), NoAnswer);
 }
 
 TEST_CASE("what was not measured is filled in by reciprocity, and said") {
-  ModalModel truth = fixtures::close_pair();
-  for (Mode& mode : truth.modes) mode.psi_l = mode.psi_r * Complex(0, -1e-4);  // symmetric
-  FrequencyResponse measured = synthesize(truth, kLines);
+  dynamics::ModalModel truth = fixtures::close_pair();
+  for (dynamics::Mode& mode : truth.modes) mode.psi_l = mode.psi_r * Complex(0, -1e-4);  // symmetric
+  dynamics::FrequencyResponse measured = dynamics::synthesize(truth, kLines);
   std::erase_if(measured.entries, [](const auto& entry) { return entry.reference == "y"; });
   const ModalFit fit = fit_modes(measured);
   REQUIRE(fit.warnings.size() == 1);
   CHECK(fit.warnings[0].find("xy, yy") != std::string::npos);
   REQUIRE(fit.model.modes.size() == truth.modes.size());
   for (std::size_t k = 0; k < truth.modes.size(); ++k) {
-    const Mode expected = normalised(truth.modes[k]);
+    const dynamics::Mode expected = dynamics::normalised(truth.modes[k]);
     CHECK((fit.model.modes[k].psi_l - expected.psi_l).norm() < 1e-6 * expected.psi_l.norm());
   }
 }
 
 TEST_CASE("two driving points alone are two uncoupled structures, and that is said") {
-  FrequencyResponse measured = synthesize(fixtures::close_pair(), kLines);
+  dynamics::FrequencyResponse measured = dynamics::synthesize(fixtures::close_pair(), kLines);
   std::erase_if(measured.entries, [](const auto& entry) { return entry.response != entry.reference; });
   const ModalFit fit = fit_modes(measured);
   REQUIRE(fit.warnings.size() == 1);
@@ -171,9 +175,9 @@ TEST_CASE("two driving points alone are two uncoupled structures, and that is sa
 }
 
 TEST_CASE("a variance that is much too small is not believed") {
-  const ModalModel truth = fixtures::close_pair();
-  FrequencyResponse measured = synthesize(truth, kLines);
-  add_noise(measured, {{}, 40.0, 3});
+  const dynamics::ModalModel truth = fixtures::close_pair();
+  dynamics::FrequencyResponse measured = dynamics::synthesize(truth, kLines);
+  dynamics::add_noise(measured, {{}, 40.0, 3});
   for (auto& entry : measured.entries) entry.variance *= 0.05;
   const ModalFit fit = fit_modes(measured);
   CHECK(fit.model.modes.size() == truth.modes.size());
@@ -183,14 +187,14 @@ TEST_CASE("a variance that is much too small is not believed") {
 }
 
 TEST_CASE("equal numbers in x and y are fitted once, to the same as each alone") {
-  FrequencyResponse measured = synthesize(fixtures::close_pair(), kLines);
-  add_noise(measured, {{}, 40.0, 9});
+  dynamics::FrequencyResponse measured = dynamics::synthesize(fixtures::close_pair(), kLines);
+  dynamics::add_noise(measured, {{}, 40.0, 9});
   std::erase_if(measured.entries, [](const auto& entry) { return entry.response + entry.reference != "xx"; });
   const ModalFit alone = fit_modes(measured);
-  FrequencyResponseEntry other = measured.entries[0], zero = other;
+  dynamics::FrequencyResponseEntry other = measured.entries[0], zero = other;
   other.response = other.reference = zero.reference = "y";
   zero.h.setZero();
-  FrequencyResponseEntry back = zero;
+  dynamics::FrequencyResponseEntry back = zero;
   std::swap(back.response, back.reference);
   for (const auto& entry : {zero, back, other}) measured.entries.push_back(entry);
   const ModalFit both = fit_modes(measured);
@@ -203,14 +207,14 @@ TEST_CASE("equal numbers in x and y are fitted once, to the same as each alone")
 
 TEST_CASE("the best model is the one behind the data") {
   for (const ModeModel model : {ModeModel::kNonsymmetric, ModeModel::kSymmetric, ModeModel::kProportional}) {
-    ModalModel truth = hard_case();
-    for (Mode& mode : truth.modes) {
+    dynamics::ModalModel truth = hard_case();
+    for (dynamics::Mode& mode : truth.modes) {
       if (model == ModeModel::kSymmetric) mode.psi_l = mode.psi_r * Complex(0, -1e-4);
       if (model == ModeModel::kProportional)
         mode.psi_r = mode.psi_l = std::polar(1e-2, -0.7853981633974483) * mode.psi_r.real();
     }
-    FrequencyResponse measured = synthesize(truth, kLines);
-    add_noise(measured, {{}, 40.0, 4});
+    dynamics::FrequencyResponse measured = dynamics::synthesize(truth, kLines);
+    dynamics::add_noise(measured, {{}, 40.0, 4});
     for (auto& entry : measured.entries) entry.variance.resize(0);
     const ModalFit fit = fit_modes(measured, {{}, {}, {}});
     INFO("model " << static_cast<int>(model));
@@ -235,14 +239,14 @@ TEST_CASE("the best model is the one behind the data") {
 }
 
 TEST_CASE("every number of the table lies within its deviations") {
-  const ModalModel truth = hard_case();
-  FrequencyResponse measured = synthesize(truth, kLines);
-  add_noise(measured, {{}, 40.0, 6});
+  const dynamics::ModalModel truth = hard_case();
+  dynamics::FrequencyResponse measured = dynamics::synthesize(truth, kLines);
+  dynamics::add_noise(measured, {{}, 40.0, 6});
   const ModalFit fit = fit_modes(measured);
   REQUIRE(fit.model.modes.size() == truth.modes.size());
   double square = 0;
   for (std::size_t k = 0; k < truth.modes.size(); ++k) {
-    const Mode expected = normalised(truth.modes[k]);
+    const dynamics::Mode expected = dynamics::normalised(truth.modes[k]);
     const Eigen::VectorXd deviation = fit.model.deviation(static_cast<Eigen::Index>(k));
     for (Eigen::Index i = 0; i < 2; ++i) {
       const Complex right = fit.model.modes[k].psi_r[i] - expected.psi_r[i],
@@ -259,18 +263,18 @@ TEST_CASE("every number of the table lies within its deviations") {
 TEST_CASE("a suspended structure's rigid body is one mode below the lines") {
   for (const double rigid_hz : {0.5, 1.0, 2.0}) {
     for (const bool noisy : {false, true}) {
-      ModalModel model;
+      dynamics::ModalModel model;
       model.dofs = {"x"};
       for (const auto& [hz, zeta] :
            {std::pair(rigid_hz, 0.05), std::pair(600.0, 0.01), std::pair(1300.0, 0.008)}) {
-        Mode mode;
+        dynamics::Mode mode;
         mode.frequency_hz = hz;
         mode.damping_ratio = zeta;
         mode.psi_r = mode.psi_l = Eigen::VectorXcd::Constant(1, std::sqrt(Complex(0, -0.5) / (kTwoPi * hz)));
         model.modes.push_back(mode);
       }
-      FrequencyResponse frf = synthesize(model, Eigen::VectorXd::LinSpaced(400, 5, 2000));
-      if (noisy) add_noise(frf, {40.0, std::nullopt, 5});
+      dynamics::FrequencyResponse frf = dynamics::synthesize(model, Eigen::VectorXd::LinSpaced(400, 5, 2000));
+      if (noisy) dynamics::add_noise(frf, {40.0, std::nullopt, 5});
       frf.entries[0].variance.resize(0);
       INFO(rigid_hz << " Hz, noise: " << noisy);
       const ModalFit fit = fit_modes(frf);
@@ -284,8 +288,9 @@ TEST_CASE("a suspended structure's rigid body is one mode below the lines") {
 }
 
 TEST_CASE("cross entries alone share their modes") {
-  FrequencyResponse frf = synthesize(fixtures::close_pair(), Eigen::VectorXd::LinSpaced(1500, 50, 1000));
-  add_noise(frf, {40.0, std::nullopt, 3});
+  dynamics::FrequencyResponse frf =
+      dynamics::synthesize(fixtures::close_pair(), Eigen::VectorXd::LinSpaced(1500, 50, 1000));
+  dynamics::add_noise(frf, {40.0, std::nullopt, 3});
   for (auto& entry : frf.entries) entry.variance.resize(0);
   std::erase_if(frf.entries, [](const auto& entry) { return entry.response == entry.reference; });
   const ModalFit fit = fit_modes(frf);

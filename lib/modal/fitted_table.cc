@@ -4,7 +4,7 @@
 
 #include "modal/likelihood.h"
 
-namespace stablecut {
+namespace stablecut::modal {
 namespace {
 
 using Complex = std::complex<double>;
@@ -26,7 +26,7 @@ struct Seen {
 };
 
 // The direction in which both is known and the mode largest, or -1.
-Eigen::Index known_direction(const Seen& seen, const Mode& mode) {
+Eigen::Index known_direction(const Seen& seen, const dynamics::Mode& mode) {
   Eigen::Index best = -1;
   double largest = 0;
   for (std::size_t i = 0; i < seen.right.size(); ++i) {
@@ -40,7 +40,8 @@ Eigen::Index known_direction(const Seen& seen, const Mode& mode) {
 }
 
 // Completes the mode, and gives the slope of its coordinates by those before.
-Eigen::MatrixXd complete_by_reciprocity(const Seen& seen, const ModeParameters& parameters, Mode& mode) {
+Eigen::MatrixXd complete_by_reciprocity(const Seen& seen, const ModeParameters& parameters,
+                                        dynamics::Mode& mode) {
   Eigen::MatrixXd slope =
       Eigen::MatrixXd::Identity(parameters.coordinates_per_mode(), parameters.coordinates_per_mode());
   const Eigen::Index known = known_direction(seen, mode);
@@ -72,7 +73,7 @@ Eigen::MatrixXd complete_by_reciprocity(const Seen& seen, const ModeParameters& 
 
 }  // namespace
 
-FittedTable fitted_table(const FitData& data, const std::vector<Mode>& modes, ModeModel model) {
+FittedTable fitted_table(const FitData& data, const std::vector<dynamics::Mode>& modes, ModeModel model) {
   FittedTable table;
   if (modes.empty()) return table;
   const ModeParameters parameters(modes, data.dofs, model);
@@ -81,13 +82,13 @@ FittedTable fitted_table(const FitData& data, const std::vector<Mode>& modes, Mo
   table.by_reciprocity = !seen.all();
   const Eigen::Index size = parameters.coordinates_per_mode();
   Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(parameters.modes() * size, parameters.size());
-  const std::vector<Mode> fitted = parameters.unpack(x);
+  const std::vector<dynamics::Mode> fitted = parameters.unpack(x);
   for (Eigen::Index k = 0; k < parameters.modes(); ++k) {
-    Mode mode = fitted[static_cast<std::size_t>(k)];
+    dynamics::Mode mode = fitted[static_cast<std::size_t>(k)];
     const Eigen::MatrixXd completion = complete_by_reciprocity(seen, parameters, mode);
     slope.block(k * size, parameters.pole_at(k), size, parameters.per_mode()) =
-        normalisation_slope(mode) * completion * parameters.slope(x, k);
-    table.modes.push_back(normalised(mode));
+        dynamics::normalisation_slope(mode) * completion * parameters.slope(x, k);
+    table.modes.push_back(dynamics::normalised(mode));
     table.modes.back().out_of_band = modes[static_cast<std::size_t>(k)].out_of_band;
   }
   // The weights are 1 / E|error|^2 of the complex value, so each part has half of that variance.
@@ -96,4 +97,4 @@ FittedTable fitted_table(const FitData& data, const std::vector<Mode>& modes, Mo
   return table;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

@@ -7,11 +7,12 @@
 #include "modal/modal_fixtures_test.h"
 
 using namespace stablecut;
+using namespace stablecut::modal;
 using Complex = std::complex<double>;
 
 namespace {
 
-Eigen::VectorXd parameters_of(const std::vector<Mode>& modes) {
+Eigen::VectorXd parameters_of(const std::vector<dynamics::Mode>& modes) {
   Eigen::VectorXd all(10 * static_cast<Eigen::Index>(modes.size()));
   for (std::size_t k = 0; k < modes.size(); ++k) {
     auto p = all.segment<10>(10 * static_cast<Eigen::Index>(k));
@@ -26,15 +27,15 @@ Eigen::VectorXd parameters_of(const std::vector<Mode>& modes) {
 }
 
 // Modes of which the model is true.
-ModalModel in_model(ModeModel model) {
-  ModalModel truth = fixtures::close_pair();
-  for (Mode& mode : truth.modes) {
+dynamics::ModalModel in_model(ModeModel model) {
+  dynamics::ModalModel truth = fixtures::close_pair();
+  for (dynamics::Mode& mode : truth.modes) {
     if (model == ModeModel::kSymmetric) mode.psi_l = mode.psi_r * Complex(0, -1e-4);
     if (model == ModeModel::kProportional) {
       mode.psi_r = std::polar(1e-2, -0.7853981633974483) * mode.psi_r.real();
       mode.psi_l = mode.psi_r;
     }
-    mode = normalised(mode);
+    mode = dynamics::normalised(mode);
   }
   return truth;
 }
@@ -45,15 +46,16 @@ TEST_CASE("the scatter of refits under noise is the covariance, in every model a
   const auto [model, hidden] =
       GENERATE(std::pair(ModeModel::kNonsymmetric, false), std::pair(ModeModel::kSymmetric, false),
                std::pair(ModeModel::kProportional, false), std::pair(ModeModel::kSymmetric, true));
-  const ModalModel truth = in_model(model);
+  const dynamics::ModalModel truth = in_model(model);
   // Forces in x only: what psi_l has in y follows by reciprocity, which holds in a symmetric structure.
   const ModeModel fitted = hidden ? ModeModel::kNonsymmetric : model;
   constexpr int kRuns = 60;
   Eigen::VectorXd square = Eigen::VectorXd::Zero(40);
   const Eigen::VectorXd expected = parameters_of(truth.modes);
   for (int run = 0; run < kRuns; ++run) {
-    FrequencyResponse noisy = synthesize(truth, Eigen::VectorXd::LinSpaced(1000, 1, 1000));
-    add_noise(noisy, {{}, 50.0, static_cast<std::uint64_t>(run + 1)});
+    dynamics::FrequencyResponse noisy =
+        dynamics::synthesize(truth, Eigen::VectorXd::LinSpaced(1000, 1, 1000));
+    dynamics::add_noise(noisy, {{}, 50.0, static_cast<std::uint64_t>(run + 1)});
     FitData data = fixtures::data_of(truth, 1e-3);
     for (std::size_t e = 0; e < 4; ++e) {
       data.curves[e].h = noisy.entries[e].h;
@@ -76,11 +78,11 @@ TEST_CASE("the scatter of refits under noise is the covariance, in every model a
 }
 
 TEST_CASE("a structure a thousand million times stiffer is fitted as well") {
-  ModalModel truth = fixtures::close_pair();
-  for (Mode& mode : truth.modes) mode.psi_l *= 1e-9;
+  dynamics::ModalModel truth = fixtures::close_pair();
+  for (dynamics::Mode& mode : truth.modes) mode.psi_l *= 1e-9;
   FitData data = fixtures::data_of(truth, 1e-3);
-  std::vector<Mode> start = truth.modes;
-  for (Mode& mode : start) mode.damping_ratio *= 1.2;
+  std::vector<dynamics::Mode> start = truth.modes;
+  for (dynamics::Mode& mode : start) mode.damping_ratio *= 1.2;
   const RefinedModes refined = refine_modes(data, start, ModeModel::kNonsymmetric, {100, 1e-12});
   CHECK(refined.converged);
   CHECK(refined.modes[2].damping_ratio == Approx(truth.modes[2].damping_ratio).epsilon(1e-6));

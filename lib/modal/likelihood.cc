@@ -7,7 +7,7 @@
 
 #include "modal/pole_sums.h"
 
-namespace stablecut {
+namespace stablecut::modal {
 namespace {
 
 using Complex = std::complex<double>;
@@ -29,10 +29,11 @@ struct Direction {
 };
 
 std::vector<Direction> curve_directions(const ModeParameters& parameters, const Curve& curve,
-                                        const std::vector<Mode>& modes, const Eigen::VectorXcd& residue) {
+                                        const std::vector<dynamics::Mode>& modes,
+                                        const Eigen::VectorXcd& residue) {
   std::vector<Direction> directions;
   for (Eigen::Index k = 0; k < parameters.modes(); ++k) {
-    const Mode& mode = modes[static_cast<std::size_t>(k)];
+    const dynamics::Mode& mode = modes[static_cast<std::size_t>(k)];
     const Eigen::Index first = k * parameters.coordinates_per_mode();
     directions.push_back({first, 2 * k + 1, residue[k]});
     directions.push_back({first + parameters.right_at(curve.response), 2 * k, mode.psi_l[curve.reference]});
@@ -121,14 +122,14 @@ NormalEquations Likelihood::evaluate(const Eigen::Ref<const Eigen::VectorXd>& x,
     sums.gradient = Eigen::VectorXd::Zero(size);
     sums.matrix = Eigen::MatrixXd::Zero(size, size);
   }
-  const std::vector<Mode> modes = parameters_.unpack(x);
+  const std::vector<dynamics::Mode> modes = parameters_.unpack(x);
   Eigen::VectorXcd poles(parameters_.modes());
   for (Eigen::Index k = 0; k < poles.size(); ++k) poles[k] = parameters_.pole(x, k);
   Eigen::MatrixXcd residue(poles.size(), static_cast<Eigen::Index>(data_.curves.size()));
   for (Eigen::Index c = 0; c < residue.cols(); ++c) {
     const Curve& curve = data_.curves[static_cast<std::size_t>(c)];
     for (Eigen::Index k = 0; k < poles.size(); ++k) {
-      const Mode& mode = modes[static_cast<std::size_t>(k)];
+      const dynamics::Mode& mode = modes[static_cast<std::size_t>(k)];
       residue(k, c) = mode.psi_r[curve.response] * mode.psi_l[curve.reference];
     }
   }
@@ -171,9 +172,9 @@ void Likelihood::add_priors(const Eigen::Ref<const Eigen::VectorXd>& x, bool wit
   }
 }
 
-std::vector<bool> out_of_band(const FitData& data, const std::vector<Mode>& modes) {
+std::vector<bool> out_of_band(const FitData& data, const std::vector<dynamics::Mode>& modes) {
   std::vector<bool> result;
-  for (const Mode& mode : modes) {
+  for (const dynamics::Mode& mode : modes) {
     const double omega = mode.pole().imag();
     result.push_back(omega < data.s[0].imag() || omega > data.s[data.lines() - 1].imag());
   }
@@ -187,4 +188,4 @@ Eigen::MatrixXd inverse_of(const NormalEquations& normal) {
 
 Eigen::MatrixXd upper_factor(const NormalEquations& normal) { return factorized(normal.matrix).matrixU(); }
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

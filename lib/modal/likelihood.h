@@ -7,7 +7,7 @@
 #include "modal/mode_parameters.h"
 #include "modal/residual_sums.h"
 
-namespace stablecut {
+namespace stablecut::modal {
 
 /// With r the weighted residual of all curves and J its Jacobian: chi-square |r|^2, J^T r and J^T J.
 struct NormalEquations {
@@ -37,11 +37,11 @@ class Likelihood {
 };
 
 /// Whether a mode lies outside the band of the data.
-std::vector<bool> out_of_band(const FitData& data, const std::vector<Mode>& modes);
+std::vector<bool> out_of_band(const FitData& data, const std::vector<dynamics::Mode>& modes);
 
 /// Inverse of J^T J, by Cholesky; a mode without residue does not stop it.
 Eigen::MatrixXd inverse_of(const NormalEquations& normal);
 /// U with U^T U = J^T J, as well as that can be factorized.
 Eigen::MatrixXd upper_factor(const NormalEquations& normal);
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

@@ -10,7 +10,7 @@
 #include "modal/likelihood.h"
 #include "modal/pole_sums.h"
 
-namespace stablecut {
+namespace stablecut::modal {
 namespace {
 
 using Complex = std::complex<double>;
@@ -78,7 +78,7 @@ bool has_settled(const ceres::Solver::Summary& summary) {
 
 }  // namespace
 
-RefinedModes refine_modes(const FitData& data, const std::vector<Mode>& start, ModeModel model,
+RefinedModes refine_modes(const FitData& data, const std::vector<dynamics::Mode>& start, ModeModel model,
                           const Effort& effort) {
   RefinedModes result;
   if (start.empty()) {
@@ -126,14 +126,15 @@ RefinedModes refine_modes(const FitData& data, const std::vector<Mode>& start, M
   return result;
 }
 
-Eigen::VectorXcd curve_of(const std::vector<Mode>& modes, const Curve& curve, const Eigen::VectorXcd& s) {
+Eigen::VectorXcd curve_of(const std::vector<dynamics::Mode>& modes, const Curve& curve,
+                          const Eigen::VectorXcd& s) {
   Eigen::VectorXcd h = Eigen::VectorXcd::Zero(s.size());
-  for (const Mode& mode : modes)
+  for (const dynamics::Mode& mode : modes)
     add_pole_pair(s, mode.pole(), mode.psi_r[curve.response] * mode.psi_l[curve.reference], h);
   return h;
 }
 
-double chi_square_of(const FitData& data, const std::vector<Mode>& modes) {
+double chi_square_of(const FitData& data, const std::vector<dynamics::Mode>& modes) {
   double sum = 0;
   for (const Curve& curve : data.curves) {
     sum += (curve_of(modes, curve, data.s) - curve.h).cwiseAbs2().dot(curve.weight);
@@ -141,4 +142,4 @@ double chi_square_of(const FitData& data, const std::vector<Mode>& modes) {
   return sum;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

@@ -7,7 +7,7 @@
 #include "modal/fit_data.h"
 #include "modal/mode_parameters.h"
 
-namespace stablecut {
+namespace stablecut::modal {
 
 /// When a refinement ends.
 struct Effort {
@@ -16,7 +16,7 @@ struct Effort {
 };
 
 struct RefinedModes {
-  std::vector<Mode> modes;
+  std::vector<dynamics::Mode> modes;
   double chi_square = 0;  ///< sum over lines and curves of |model - h|^2 / variance
   bool converged = false;
   /// Loss in chi-square, to second order, when the mode's residue is taken away and all else adapts: [modes].
@@ -26,13 +26,14 @@ struct RefinedModes {
 /// Minimises the weighted squared error of all curves at once over poles and vectors, from the given modes.
 /// Modes that start outside the band are held near it by a weak prior, which chi_square holds.
 /// Levenberg-Marquardt with analytic derivatives, until a step changes chi_square by less than the tolerance.
-RefinedModes refine_modes(const FitData& data, const std::vector<Mode>& start, ModeModel model,
+RefinedModes refine_modes(const FitData& data, const std::vector<dynamics::Mode>& start, ModeModel model,
                           const Effort& effort);
 
 /// The model on the data's lines for one curve.
-Eigen::VectorXcd curve_of(const std::vector<Mode>& modes, const Curve& curve, const Eigen::VectorXcd& s);
+Eigen::VectorXcd curve_of(const std::vector<dynamics::Mode>& modes, const Curve& curve,
+                          const Eigen::VectorXcd& s);
 
 /// Sum over lines and curves of |model - h|^2 / variance.
-double chi_square_of(const FitData& data, const std::vector<Mode>& modes);
+double chi_square_of(const FitData& data, const std::vector<dynamics::Mode>& modes);
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

@@ -8,12 +8,13 @@
 #include "modal/modal_fixtures_test.h"
 
 using namespace stablecut;
+using namespace stablecut::modal;
 using Complex = std::complex<double>;
 
 TEST_CASE("from a start nearby, exact data give the modes back") {
-  const ModalModel truth = fixtures::close_pair();
+  const dynamics::ModalModel truth = fixtures::close_pair();
   const FitData data = fixtures::data_of(truth, 1e-3);
-  std::vector<Mode> start = truth.modes;
+  std::vector<dynamics::Mode> start = truth.modes;
   for (std::size_t k = 0; k < start.size(); ++k) {
     const double nudge = k % 2 == 0 ? 1 : -1;
     start[k].frequency_hz *= 1 + 2e-3 * nudge;
@@ -35,12 +36,12 @@ TEST_CASE("from a start nearby, exact data give the modes back") {
 // The bound from a Jacobian by central differences, with the redundant complex scale of each mode taken out
 // by fixing psi_r's first component.
 TEST_CASE("standard deviations are the Cramer-Rao bound") {
-  const ModalModel truth = fixtures::close_pair();
+  const dynamics::ModalModel truth = fixtures::close_pair();
   const FitData data = fixtures::data_of(truth, 1e-2);
   const auto count = static_cast<Eigen::Index>(truth.modes.size());
   const auto nudged = [&](Eigen::Index parameter, double step) {
-    std::vector<Mode> modes = truth.modes;
-    Mode& mode = modes[static_cast<std::size_t>(parameter / 8)];
+    std::vector<dynamics::Mode> modes = truth.modes;
+    dynamics::Mode& mode = modes[static_cast<std::size_t>(parameter / 8)];
     const Eigen::Index which = parameter % 8;
     const Complex direction = which % 2 == 0 ? Complex(step, 0) : Complex(0, step);
     if (which == 0)
@@ -71,7 +72,7 @@ TEST_CASE("standard deviations are the Cramer-Rao bound") {
   const Eigen::MatrixXd covariance = (jacobian.transpose() * jacobian).inverse();
   const Eigen::MatrixXd table = fitted_table(data, truth.modes, ModeModel::kNonsymmetric).covariance;
   for (Eigen::Index k = 0; k < count; ++k) {
-    const Mode& mode = truth.modes[static_cast<std::size_t>(k)];
+    const dynamics::Mode& mode = truth.modes[static_cast<std::size_t>(k)];
     CHECK(std::sqrt(table(10 * k, 10 * k)) ==
           Approx(mode.frequency_hz * std::sqrt(covariance(8 * k, 8 * k))).epsilon(1e-4));
     CHECK(std::sqrt(table(10 * k + 1, 10 * k + 1)) ==

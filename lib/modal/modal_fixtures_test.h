@@ -6,10 +6,11 @@
 #include "dynamics/synthesis.h"
 #include "modal/fit_data.h"
 
-namespace stablecut::fixtures {
+namespace stablecut::modal::fixtures {
 
-inline Mode mode(double frequency_hz, double damping_ratio, Eigen::Vector2cd psi_r, Eigen::Vector2cd psi_l) {
-  Mode result;
+inline dynamics::Mode mode(double frequency_hz, double damping_ratio, Eigen::Vector2cd psi_r,
+                           Eigen::Vector2cd psi_l) {
+  dynamics::Mode result;
   result.frequency_hz = frequency_hz;
   result.damping_ratio = damping_ratio;
   result.psi_r = psi_r;
@@ -18,9 +19,9 @@ inline Mode mode(double frequency_hz, double damping_ratio, Eigen::Vector2cd psi
 }
 
 /// Four non-symmetric modes in x and y: a close pair, a heavily damped one, a light one.
-inline ModalModel close_pair() {
+inline dynamics::ModalModel close_pair() {
   using Complex = std::complex<double>;
-  ModalModel model;
+  dynamics::ModalModel model;
   model.dofs = {"x", "y"};
   model.modes = {
       mode(120, 0.01, {Complex(1, 0.1), Complex(-0.4, 0.2)}, {Complex(0.9e-4, 1e-5), Complex(-2e-5, 3e-5)}),
@@ -31,8 +32,9 @@ inline ModalModel close_pair() {
 }
 
 /// The model's exact receptances on 1 to 1000 Hz, weighted for noise of that share of each value.
-inline FitData data_of(const ModalModel& model, double relative_noise) {
-  const FrequencyResponse frf = synthesize(model, Eigen::VectorXd::LinSpaced(1000, 1, 1000));
+inline FitData data_of(const dynamics::ModalModel& model, double relative_noise) {
+  const dynamics::FrequencyResponse frf =
+      dynamics::synthesize(model, Eigen::VectorXd::LinSpaced(1000, 1, 1000));
   FitData data;
   data.s = std::complex<double>(0, 6.283185307179586) * frf.frequency_hz.cast<std::complex<double>>();
   data.dofs = 2;
@@ -43,4 +45,4 @@ inline FitData data_of(const ModalModel& model, double relative_noise) {
   return data;
 }
 
-}  // namespace stablecut::fixtures
+}  // namespace stablecut::modal::fixtures

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/wide.h"
 #include "modal/maximum_likelihood.h"
+#include "numerics/lanes.h"
 
-namespace stablecut {
+namespace stablecut::modal {
 namespace {
 
 using Complex = std::complex<double>;
@@ -31,27 +31,30 @@ struct PairSums {
 
 STABLECUT_WIDE PairSums pair_sums(const double* omega, const double* weight, const double* re,
                                   const double* im, Eigen::Index lines, double alpha, double beta) {
-  Lanes aa{}, ab{}, bb{}, ar{}, br{};
-  for (Eigen::Index i = 0; i < lines; i += kLanes) {
-    const Lanes line = load_lanes(omega + i), below = line - beta, above = line + beta;
-    const Lanes size = 1 / (alpha * alpha + below * below), mirrored = 1 / (alpha * alpha + above * above);
-    const Lanes a_re = alpha * (size + mirrored), a_im = -(below * size + above * mirrored);
-    const Lanes b_re = below * size - above * mirrored, b_im = alpha * (size - mirrored);
-    const Lanes w = load_lanes(weight + i), x = load_lanes(re + i), y = load_lanes(im + i);
+  numerics::Lanes aa{}, ab{}, bb{}, ar{}, br{};
+  for (Eigen::Index i = 0; i < lines; i += numerics::kLanes) {
+    const numerics::Lanes line = numerics::load_lanes(omega + i), below = line - beta, above = line + beta;
+    const numerics::Lanes size = 1 / (alpha * alpha + below * below),
+                          mirrored = 1 / (alpha * alpha + above * above);
+    const numerics::Lanes a_re = alpha * (size + mirrored), a_im = -(below * size + above * mirrored);
+    const numerics::Lanes b_re = below * size - above * mirrored, b_im = alpha * (size - mirrored);
+    const numerics::Lanes w = numerics::load_lanes(weight + i), x = numerics::load_lanes(re + i),
+                          y = numerics::load_lanes(im + i);
     aa += w * (a_re * a_re + a_im * a_im);
     ab += w * (a_re * b_re + a_im * b_im);
     bb += w * (b_re * b_re + b_im * b_im);
     ar += a_re * x + a_im * y;
     br += b_re * x + b_im * y;
   }
-  return {sum_of(aa), sum_of(ab), sum_of(bb), sum_of(ar), sum_of(br)};
+  return {numerics::sum_of(aa), numerics::sum_of(ab), numerics::sum_of(bb), numerics::sum_of(ar),
+          numerics::sum_of(br)};
 }
 
 }  // namespace
 
-Mode rank_one_mode(const FitData& data, Complex pole, const Eigen::RowVectorXcd& residue) {
-  Mode mode;
-  set_pole(mode, pole);
+dynamics::Mode rank_one_mode(const FitData& data, Complex pole, const Eigen::RowVectorXcd& residue) {
+  dynamics::Mode mode;
+  dynamics::set_pole(mode, pole);
   mode.psi_r = mode.psi_l = Eigen::VectorXcd::Zero(data.dofs);
   // Curves that share no component of either vector (xy and yx alone) are each of rank one by themselves.
   const std::vector<std::size_t> part = data.vector_parts();
@@ -68,9 +71,9 @@ Mode rank_one_mode(const FitData& data, Complex pole, const Eigen::RowVectorXcd&
   return mode;
 }
 
-Mode best_addition(const FitData& data, const std::vector<Mode>& modes) {
+dynamics::Mode best_addition(const FitData& data, const std::vector<dynamics::Mode>& modes) {
   // Filled up with lines far away that have no weight.
-  const Eigen::Index lines = (data.lines() + kLanes - 1) / kLanes * kLanes;
+  const Eigen::Index lines = (data.lines() + numerics::kLanes - 1) / numerics::kLanes * numerics::kLanes;
   const double lowest = data.s[0].imag(), highest = data.s[data.lines() - 1].imag();
   Eigen::ArrayXd omega = Eigen::ArrayXd::Constant(lines, highest);
   omega.head(data.lines()) = data.s.imag();
@@ -86,7 +89,7 @@ Mode best_addition(const FitData& data, const std::vector<Mode>& modes) {
   }
   const double spacing = data.line_spacing();
   double best_gain = -1;
-  Mode best;
+  dynamics::Mode best;
   for (const double zeta : kDampings) {
     const double margin = zeta == kOutsideDamping ? kOutsideMargin : 1;
     for (double rate = std::max(lowest, spacing) / margin; rate <= highest * margin;
@@ -95,11 +98,11 @@ Mode best_addition(const FitData& data, const std::vector<Mode>& modes) {
       // The lines it reaches, as whole lanes.
       const double reach = -kReach * pole.real();
       const Eigen::Index first =
-          (std::lower_bound(omega.begin(), omega.end(), pole.imag() - reach) - omega.begin()) / kLanes *
-          kLanes;
+          (std::lower_bound(omega.begin(), omega.end(), pole.imag() - reach) - omega.begin()) /
+          numerics::kLanes * numerics::kLanes;
       const Eigen::Index last =
           std::upper_bound(omega.begin(), omega.end(), pole.imag() + reach) - omega.begin();
-      const Eigen::Index count = (last - first + kLanes - 1) / kLanes * kLanes;
+      const Eigen::Index count = (last - first + numerics::kLanes - 1) / numerics::kLanes * numerics::kLanes;
       if (count <= 0) continue;
       Eigen::RowVectorXcd residue(static_cast<Eigen::Index>(residual.size()));
       double gain = 0;
@@ -122,4 +125,4 @@ Mode best_addition(const FitData& data, const std::vector<Mode>& modes) {
   return best;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

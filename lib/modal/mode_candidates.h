@@ -8,14 +8,15 @@
 #include "dynamics/modal_model.h"
 #include "modal/fit_data.h"
 
-namespace stablecut {
+namespace stablecut::modal {
 
 /// The mode whose residue psi_r psi_l^T is nearest to the curves' residues [curves]; a missing curve counts
 /// as zero.
-Mode rank_one_mode(const FitData& data, std::complex<double> pole, const Eigen::RowVectorXcd& residue);
+dynamics::Mode rank_one_mode(const FitData& data, std::complex<double> pole,
+                             const Eigen::RowVectorXcd& residue);
 
 /// The pole, of a grid over frequency and damping that reaches a little outside the band, that alone takes
 /// away most of the weighted residual of `modes`, with the residue that does so.
-Mode best_addition(const FitData& data, const std::vector<Mode>& modes);
+dynamics::Mode best_addition(const FitData& data, const std::vector<dynamics::Mode>& modes);
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

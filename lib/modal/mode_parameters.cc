@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace stablecut {
+namespace stablecut::modal {
 namespace {
 
 using Complex = std::complex<double>;
@@ -10,16 +10,16 @@ using Complex = std::complex<double>;
 const Complex kPhase = std::polar(1.0, -0.7853981633974483);  // of psi where 2 i Im lambda psi psi^T is real
 
 // The symmetric vector nearest to a mode's two.
-Eigen::VectorXcd symmetric_vector(const Mode& mode) {
-  const Mode balanced = normalised(mode);
+Eigen::VectorXcd symmetric_vector(const dynamics::Mode& mode) {
+  const dynamics::Mode balanced = dynamics::normalised(mode);
   return (balanced.psi_r + balanced.psi_l) / 2;
 }
 
 }  // namespace
 
-ModeParameters::ModeParameters(const std::vector<Mode>& modes, Eigen::Index dofs, ModeModel model)
+ModeParameters::ModeParameters(const std::vector<dynamics::Mode>& modes, Eigen::Index dofs, ModeModel model)
     : dofs_(dofs), model_(model) {
-  for (const Mode& mode : modes) {
+  for (const dynamics::Mode& mode : modes) {
     Eigen::Index pivot = 0;
     const double largest = mode.psi_r.cwiseAbs().maxCoeff(&pivot);
     pivot_.push_back(pivot);
@@ -47,14 +47,14 @@ Eigen::Index ModeParameters::right_offset(Eigen::Index k, Eigen::Index i) const 
   return 2 * (i < pivot_[static_cast<std::size_t>(k)] ? i : i - 1);
 }
 
-Eigen::VectorXd ModeParameters::pack(const std::vector<Mode>& modes) const {
+Eigen::VectorXd ModeParameters::pack(const std::vector<dynamics::Mode>& modes) const {
   Eigen::VectorXd x(size());
   const auto put = [&](Eigen::Index at, Complex value) {
     x[at] = value.real();
     x[at + 1] = value.imag();
   };
   for (Eigen::Index k = 0; k < this->modes(); ++k) {
-    const Mode& mode = modes[static_cast<std::size_t>(k)];
+    const dynamics::Mode& mode = modes[static_cast<std::size_t>(k)];
     const Complex lambda = mode.pole();
     const double unit = unit_[static_cast<std::size_t>(k)];
     x[pole_at(k)] = std::log(-lambda.real() / lambda.imag());
@@ -84,11 +84,11 @@ Eigen::VectorXd ModeParameters::pack(const std::vector<Mode>& modes) const {
   return x;
 }
 
-std::vector<Mode> ModeParameters::unpack(const Eigen::Ref<const Eigen::VectorXd>& x) const {
-  std::vector<Mode> modes(pivot_.size());
+std::vector<dynamics::Mode> ModeParameters::unpack(const Eigen::Ref<const Eigen::VectorXd>& x) const {
+  std::vector<dynamics::Mode> modes(pivot_.size());
   for (Eigen::Index k = 0; k < this->modes(); ++k) {
-    Mode& mode = modes[static_cast<std::size_t>(k)];
-    set_pole(mode, pole(x, k));
+    dynamics::Mode& mode = modes[static_cast<std::size_t>(k)];
+    dynamics::set_pole(mode, pole(x, k));
     mode.psi_r = Eigen::VectorXcd::Ones(dofs_);
     mode.psi_l.resize(dofs_);
     const Eigen::Index first = vectors_at(k);
@@ -155,4 +155,4 @@ Eigen::VectorXd ModeParameters::removal(const Eigen::Ref<const Eigen::VectorXd>&
   return -x.segment(pole_at(k) + per_mode() - count, count) / (linear ? 1 : 2);
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

@@ -7,7 +7,7 @@
 
 #include "dynamics/modal_model.h"
 
-namespace stablecut {
+namespace stablecut::modal {
 
 /// What is assumed of the residue of a mode.
 enum class ModeModel {
@@ -24,7 +24,7 @@ enum class ModeModel {
 class ModeParameters {
  public:
   /// For modes like these (pivots and units are theirs), each with `dofs` directions.
-  ModeParameters(const std::vector<Mode>& modes, Eigen::Index dofs, ModeModel model);
+  ModeParameters(const std::vector<dynamics::Mode>& modes, Eigen::Index dofs, ModeModel model);
 
   Eigen::Index modes() const { return static_cast<Eigen::Index>(pivot_.size()); }
   /// Free parameters, and those of one mode.
@@ -37,8 +37,8 @@ class ModeParameters {
   Eigen::Index vectors_at(Eigen::Index k) const { return pole_at(k) + 2; }
 
   /// The parameters of given modes; for the restricted models of the nearest such ones.
-  Eigen::VectorXd pack(const std::vector<Mode>& modes) const;
-  std::vector<Mode> unpack(const Eigen::Ref<const Eigen::VectorXd>& x) const;
+  Eigen::VectorXd pack(const std::vector<dynamics::Mode>& modes) const;
+  std::vector<dynamics::Mode> unpack(const Eigen::Ref<const Eigen::VectorXd>& x) const;
   std::complex<double> pole(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Index k) const;
 
   /// Coordinates of one mode, and where they stand among its coordinates.
@@ -62,4 +62,4 @@ class ModeParameters {
   std::vector<double> unit_;
 };
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

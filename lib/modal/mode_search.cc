@@ -10,7 +10,7 @@
 #include "modal/mode_candidates.h"
 #include "modal/vector_fitting.h"
 
-namespace stablecut {
+namespace stablecut::modal {
 namespace {
 
 using Complex = std::complex<double>;
@@ -59,10 +59,10 @@ ModeSearch::ModeSearch(FitData data, std::vector<Eigen::VectorXd> variance, std:
       estimate_noise_(variance_.empty()),
       wanted_modes_(wanted_modes),
       floor_(kCoarseFloor) {
-  floors_ = floor_shapes(data_.s.imag());
+  floors_ = dynamics::floor_shapes(data_.s.imag());
   if (estimate_noise_) {
     for (const Curve& curve : data_.curves)
-      variance_.push_back(estimated_variance(data_.s.imag(), curve.h, curve.h.cwiseAbs(), floors_));
+      variance_.push_back(dynamics::estimated_variance(data_.s.imag(), curve.h, curve.h.cwiseAbs(), floors_));
   }
   set_weights();
 }
@@ -125,7 +125,7 @@ void ModeSearch::reweight() {
   for (std::size_t e = 0; e < data_.curves.size(); ++e) {
     const Curve& curve = data_.curves[e];
     const Eigen::VectorXcd model = curve_of(current_.modes, curve, data_.s);
-    variance_[e] = estimated_variance(data_.s.imag(), model - curve.h, model.cwiseAbs(), floors_);
+    variance_[e] = dynamics::estimated_variance(data_.s.imag(), model - curve.h, model.cwiseAbs(), floors_);
   }
   set_weights();
   current_ = refined(current_.modes, kBetween);
@@ -142,7 +142,8 @@ void ModeSearch::settle_noise() {
     for (std::size_t e = 0; e < data_.curves.size(); ++e) {
       const Curve& curve = data_.curves[e];
       const Eigen::VectorXcd model = curve_of(current_.modes, curve, data_.s);
-      const ResidualNoise noise = residual_noise(model - curve.h, model.cwiseAbs(), floors_);
+      const dynamics::ResidualNoise noise =
+          dynamics::residual_noise(model - curve.h, model.cwiseAbs(), floors_);
       const Eigen::VectorXd now = correction * (local_allowed && noise.is_local ? noise.local : noise.smooth);
       changed = changed || (now.array() > kOtherNoise * variance_[e].array()).any() ||
                 (variance_[e].array() > kOtherNoise * now.array()).any();
@@ -156,7 +157,7 @@ void ModeSearch::settle_noise() {
   }
 }
 
-RefinedModes ModeSearch::refined(const std::vector<Mode>& modes, const Effort& effort) const {
+RefinedModes ModeSearch::refined(const std::vector<dynamics::Mode>& modes, const Effort& effort) const {
   return refine_modes(data_, modes, model_, effort);
 }
 
@@ -180,11 +181,12 @@ bool ModeSearch::is_white() const {
 
 // More modes at one pole than there are directions: they stand for something else.
 bool ModeSearch::is_crowded() const {
-  for (const Mode& mode : current_.modes) {
+  for (const dynamics::Mode& mode : current_.modes) {
     const Complex pole = mode.pole();
-    const auto near = std::count_if(current_.modes.begin(), current_.modes.end(), [&](const Mode& other) {
-      return std::abs(other.pole() - pole) < kOnePole * std::min(-other.pole().real(), -pole.real());
-    });
+    const auto near =
+        std::count_if(current_.modes.begin(), current_.modes.end(), [&](const dynamics::Mode& other) {
+          return std::abs(other.pole() - pole) < kOnePole * std::min(-other.pole().real(), -pole.real());
+        });
     if (near > data_.dofs) return true;
   }
   return false;
@@ -232,7 +234,7 @@ void ModeSearch::build_up() {
 }
 
 // |model - h| / |h|, root mean square over the curves.
-double ModeSearch::relative_error(const std::vector<Mode>& modes) const {
+double ModeSearch::relative_error(const std::vector<dynamics::Mode>& modes) const {
   double sum = 0, curves = 0;
   for (const Curve& curve : data_.curves) {
     if (curve.h.isZero(0)) continue;
@@ -271,7 +273,7 @@ double ModeSearch::inflation_of(const RefinedModes& modes) const {
   for (const Curve& curve : data_.curves) {
     if (curve.h.isZero(0)) continue;
     const Eigen::VectorXcd residual = curve_of(modes.modes, curve, data_.s) - curve.h;
-    length += correlation_length(curve.weight.cwiseSqrt().cwiseProduct(residual));
+    length += dynamics::correlation_length(curve.weight.cwiseSqrt().cwiseProduct(residual));
     ++curves;
   }
   return std::max(1.0, modes.chi_square / complex_values()) * length / curves;
@@ -329,9 +331,9 @@ void ModeSearch::find_modes() {
 }
 
 // Modes at the poles, each the nearest of rank one.
-std::vector<Mode> ModeSearch::modes_at(const Eigen::VectorXcd& poles) const {
+std::vector<dynamics::Mode> ModeSearch::modes_at(const Eigen::VectorXcd& poles) const {
   const LinearResidues linear = linear_residues(data_, poles);
-  std::vector<Mode> modes;
+  std::vector<dynamics::Mode> modes;
   for (Eigen::Index k = 0; k < poles.size(); ++k)
     modes.push_back(rank_one_mode(data_, poles[k], linear.residue.row(k)));
   return modes;
@@ -343,7 +345,7 @@ std::vector<Mode> ModeSearch::modes_at(const Eigen::VectorXcd& poles) const {
 void ModeSearch::try_rigid_body() {
   const double lo = data_.s[0].imag();
   std::vector<Complex> kept;
-  for (const Mode& mode : current_.modes) {
+  for (const dynamics::Mode& mode : current_.modes) {
     const Complex pole = mode.pole();
     if (std::abs(pole) > kRigidReach * lo && mode.damping_ratio < kRigidDamping) kept.push_back(pole);
   }
@@ -398,7 +400,7 @@ bool ModeSearch::remove_if_worthless(std::size_t k) {
   // The second-order loss is a good guess: no trial where it says that the mode matters beyond doubt.
   const bool forced = wanted_modes_.has_value() || is_too_narrow(current_.modes[k]);
   if (!forced && loss(k) > kBeyondDoubt * price(current_, current_)) return false;
-  std::vector<Mode> fewer = current_.modes;
+  std::vector<dynamics::Mode> fewer = current_.modes;
   fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
   RefinedModes trial = refined(fewer, kRemoval);
   if (!forced && trial.chi_square - current_.chi_square >= price(current_, trial)) return false;
@@ -406,7 +408,7 @@ bool ModeSearch::remove_if_worthless(std::size_t k) {
   return true;
 }
 
-bool ModeSearch::is_too_narrow(const Mode& mode) const {
+bool ModeSearch::is_too_narrow(const dynamics::Mode& mode) const {
   const Complex pole = mode.pole();
   const bool on_lines = pole.imag() >= data_.s[0].imag() && pole.imag() <= data_.s[data_.lines() - 1].imag();
   return on_lines && -pole.real() < kLeastHalfWidth * data_.line_spacing();
@@ -415,17 +417,17 @@ bool ModeSearch::is_too_narrow(const Mode& mode) const {
 // Tries a mode where the residual asks most for one. True when it pays.
 bool ModeSearch::add_mode() {
   if (wanted_modes_ && static_cast<int>(current_.modes.size()) >= *wanted_modes_) return false;
-  std::vector<Mode> more = current_.modes;
+  std::vector<dynamics::Mode> more = current_.modes;
   more.push_back(best_addition(data_, current_.modes));
   RefinedModes trial = refined(more, kAddition);
   const double least_gain = wanted_modes_ ? 0.0 : price(trial, current_);
   if (!(current_.chi_square - trial.chi_square > least_gain)) return false;
   if (std::any_of(trial.modes.begin(), trial.modes.end(),
-                  [&](const Mode& mode) { return is_too_narrow(mode); })) {
+                  [&](const dynamics::Mode& mode) { return is_too_narrow(mode); })) {
     return false;
   }
   current_ = std::move(trial);
   return true;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

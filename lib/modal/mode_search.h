@@ -11,7 +11,7 @@
 #include "modal/fit_data.h"
 #include "modal/maximum_likelihood.h"
 
-namespace stablecut {
+namespace stablecut::modal {
 
 /// Candidates by vector fitting, then a balance of likelihood: a mode stays when taking it away costs more
 /// than its parameters are worth, and is added where the residual asks for one.
@@ -50,7 +50,7 @@ class ModeSearch {
   void set_weights();
   void reweight();
   void settle_noise();
-  RefinedModes refined(const std::vector<Mode>& modes, const Effort& effort) const;
+  RefinedModes refined(const std::vector<dynamics::Mode>& modes, const Effort& effort) const;
   double inflation_of(const RefinedModes& modes) const;
   bool exceeds_noise() const;
   bool is_white() const;
@@ -58,23 +58,23 @@ class ModeSearch {
   bool floor_matters() const;
   void tighten();
   void build_up();
-  double relative_error(const std::vector<Mode>& modes) const;
+  double relative_error(const std::vector<dynamics::Mode>& modes) const;
   double price(const RefinedModes& with, const RefinedModes& without) const;
 
   Eigen::VectorXcd find_poles(Eigen::Index pairs) const;
   void find_modes();
-  std::vector<Mode> modes_at(const Eigen::VectorXcd& poles) const;
+  std::vector<dynamics::Mode> modes_at(const Eigen::VectorXcd& poles) const;
   void try_rigid_body();
   void select();
   void remove_modes();
   bool remove_if_worthless(std::size_t k);
   bool add_mode();
   double loss(std::size_t k) const { return current_.removal_loss[static_cast<Eigen::Index>(k)]; }
-  bool is_too_narrow(const Mode& mode) const;
+  bool is_too_narrow(const dynamics::Mode& mode) const;
 
   FitData data_;
   std::vector<Eigen::VectorXd> variance_;  // of the noise, per curve
-  NoiseShapes floors_;
+  dynamics::NoiseShapes floors_;
   ModeModel model_ = ModeModel::kNonsymmetric;
   bool estimate_noise_;
   std::optional<int> wanted_modes_;
@@ -84,4 +84,4 @@ class ModeSearch {
   RefinedModes current_;
 };
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

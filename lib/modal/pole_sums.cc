@@ -1,8 +1,8 @@
 #include "modal/pole_sums.h"
 
-#include "base/wide.h"
+#include "numerics/lanes.h"
 
-namespace stablecut {
+namespace stablecut::modal {
 
 using Complex = std::complex<double>;
 
@@ -35,13 +35,13 @@ STABLECUT_WIDE void add_pair(const double* __restrict s, Eigen::Index lines, dou
 STABLECUT_WIDE void sums_over_lines(const double* omega, const double* w, const double* re, const double* im,
                                     const double* square, Eigen::Index lines, double alpha, double beta,
                                     double* sums) {
-  Lanes w_re{}, w_im{}, a_re{}, b_im{}, a_im{}, b_re{}, s_re{}, s_im{};
-  for (Eigen::Index i = 0; i < lines; i += kLanes) {
-    const Lanes off = load_lanes(omega + i) - beta;
-    const Lanes size = -1 / (alpha * alpha + off * off);
-    const Lanes a = alpha * size, b = off * size;
-    const Lanes weight = load_lanes(w + i), x = load_lanes(re + i), y = load_lanes(im + i),
-                v = load_lanes(square + i);
+  numerics::Lanes w_re{}, w_im{}, a_re{}, b_im{}, a_im{}, b_re{}, s_re{}, s_im{};
+  for (Eigen::Index i = 0; i < lines; i += numerics::kLanes) {
+    const numerics::Lanes off = numerics::load_lanes(omega + i) - beta;
+    const numerics::Lanes size = -1 / (alpha * alpha + off * off);
+    const numerics::Lanes a = alpha * size, b = off * size;
+    const numerics::Lanes weight = numerics::load_lanes(w + i), x = numerics::load_lanes(re + i),
+                          y = numerics::load_lanes(im + i), v = numerics::load_lanes(square + i);
     w_re += a * weight;
     w_im += b * weight;
     a_re += a * x;
@@ -51,14 +51,14 @@ STABLECUT_WIDE void sums_over_lines(const double* omega, const double* w, const 
     s_re += a * v;
     s_im += b * v;
   }
-  sums[0] = sum_of(w_re);
-  sums[1] = sum_of(w_im);
-  sums[2] = sum_of(a_re) - sum_of(b_im);
-  sums[3] = sum_of(a_im) + sum_of(b_re);
-  sums[4] = sum_of(a_re) + sum_of(b_im);
-  sums[5] = sum_of(b_re) - sum_of(a_im);
-  sums[6] = sum_of(s_re);
-  sums[7] = sum_of(s_im);
+  sums[0] = numerics::sum_of(w_re);
+  sums[1] = numerics::sum_of(w_im);
+  sums[2] = numerics::sum_of(a_re) - numerics::sum_of(b_im);
+  sums[3] = numerics::sum_of(a_im) + numerics::sum_of(b_re);
+  sums[4] = numerics::sum_of(a_re) + numerics::sum_of(b_im);
+  sums[5] = numerics::sum_of(b_re) - numerics::sum_of(a_im);
+  sums[6] = numerics::sum_of(s_re);
+  sums[7] = numerics::sum_of(s_im);
 }
 
 }  // namespace
@@ -67,7 +67,8 @@ Eigen::Matrix<Complex, Eigen::Dynamic, 4> curve_sums(const Eigen::VectorXcd& s, 
                                                      const Eigen::VectorXd& weight,
                                                      const Eigen::VectorXcd& h) {
   // Whole lanes: what is filled up has no weight.
-  const Eigen::Index lines = (s.size() + kLanes - 1) / kLanes * kLanes, n = poles.size();
+  const Eigen::Index lines = (s.size() + numerics::kLanes - 1) / numerics::kLanes * numerics::kLanes,
+                     n = poles.size();
   Eigen::MatrixXd array = Eigen::MatrixXd::Zero(lines, 5);
   array.col(0).head(s.size()) = s.imag();
   array.col(1).head(s.size()) = weight;
@@ -132,4 +133,4 @@ void PoleGrams::evaluate(const Eigen::VectorXcd& sum, const Eigen::VectorXcd& su
   fill(0, poles_, across);
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <complex>
 
-namespace stablecut {
+namespace stablecut::modal {
 
 /// Values of 1 / (s - a) and 1 / (s - conj a) on the lines, for poles a.
 struct PoleValues {
@@ -50,4 +50,4 @@ class PoleGrams {
   Eigen::MatrixXcd inverse_;  // 1 / (b + conj a), of poles and conjugate poles
 };
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 using namespace stablecut;
+using namespace stablecut::modal;
 using Complex = std::complex<double>;
 
 TEST_CASE("inner products by partial fractions equal the sums over the lines") {

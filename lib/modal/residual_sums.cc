@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <complex>
 
-#include "base/wide.h"
+#include "numerics/lanes.h"
 
-namespace stablecut {
+namespace stablecut::modal {
 namespace {
 
 using Complex = std::complex<double>;
@@ -15,47 +15,49 @@ constexpr Eigen::Index kBlock = 128;  // lines at a time; whole lanes
 // phi of a pole on the lines.
 STABLECUT_WIDE void pole_on_lines(const double* omega, Eigen::Index lines, double alpha, double beta,
                                   double* re, double* im) {
-  for (Eigen::Index i = 0; i < lines; i += kLanes) {
-    const Lanes off = load_lanes(omega + i) - beta;
-    const Lanes size = -1 / (alpha * alpha + off * off);
-    store_lanes(alpha * size, re + i);
-    store_lanes(off * size, im + i);
+  for (Eigen::Index i = 0; i < lines; i += numerics::kLanes) {
+    const numerics::Lanes off = numerics::load_lanes(omega + i) - beta;
+    const numerics::Lanes size = -1 / (alpha * alpha + off * off);
+    numerics::store_lanes(alpha * size, re + i);
+    numerics::store_lanes(off * size, im + i);
   }
 }
 
 // Adds residue times phi to the model, in separate parts.
 STABLECUT_WIDE void add_product(const double* phi_re, const double* phi_im, Eigen::Index lines, double re,
                                 double im, double* model_re, double* model_im) {
-  for (Eigen::Index i = 0; i < lines; i += kLanes) {
-    const Lanes x = load_lanes(phi_re + i), y = load_lanes(phi_im + i);
-    store_lanes(load_lanes(model_re + i) + (re * x - im * y), model_re + i);
-    store_lanes(load_lanes(model_im + i) + (re * y + im * x), model_im + i);
+  for (Eigen::Index i = 0; i < lines; i += numerics::kLanes) {
+    const numerics::Lanes x = numerics::load_lanes(phi_re + i), y = numerics::load_lanes(phi_im + i);
+    numerics::store_lanes(numerics::load_lanes(model_re + i) + (re * x - im * y), model_re + i);
+    numerics::store_lanes(numerics::load_lanes(model_im + i) + (re * y + im * x), model_im + i);
   }
 }
 
 // Turns the model into w (model - h), and gives sum w |model - h|^2.
 STABLECUT_WIDE double weigh_error(const double* h_re, const double* h_im, const double* weight,
                                   Eigen::Index lines, double* re, double* im) {
-  Lanes sum{};
-  for (Eigen::Index i = 0; i < lines; i += kLanes) {
-    const Lanes w = load_lanes(weight + i);
-    const Lanes x = load_lanes(re + i) - load_lanes(h_re + i), y = load_lanes(im + i) - load_lanes(h_im + i);
+  numerics::Lanes sum{};
+  for (Eigen::Index i = 0; i < lines; i += numerics::kLanes) {
+    const numerics::Lanes w = numerics::load_lanes(weight + i);
+    const numerics::Lanes x = numerics::load_lanes(re + i) - numerics::load_lanes(h_re + i),
+                          y = numerics::load_lanes(im + i) - numerics::load_lanes(h_im + i);
     sum += w * (x * x + y * y);
-    store_lanes(w * x, re + i);
-    store_lanes(w * y, im + i);
+    numerics::store_lanes(w * x, re + i);
+    numerics::store_lanes(w * y, im + i);
   }
-  return sum_of(sum);
+  return numerics::sum_of(sum);
 }
 
 // Adds to the eight parts of a curve's sums for one phi.
 STABLECUT_WIDE void add_sums(const double* phi_re, const double* phi_im, const double* weight,
                              const double* error_re, const double* error_im, Eigen::Index lines,
                              double* sums) {
-  Lanes w_re{}, w_im{}, q_re{}, q_im{}, e_re{}, e_im{}, s_re{}, s_im{};
-  for (Eigen::Index i = 0; i < lines; i += kLanes) {
-    const Lanes x = load_lanes(phi_re + i), y = load_lanes(phi_im + i);
-    const Lanes u = x * x - y * y, xy = x * y, v = xy + xy;
-    const Lanes w = load_lanes(weight + i), a = load_lanes(error_re + i), b = load_lanes(error_im + i);
+  numerics::Lanes w_re{}, w_im{}, q_re{}, q_im{}, e_re{}, e_im{}, s_re{}, s_im{};
+  for (Eigen::Index i = 0; i < lines; i += numerics::kLanes) {
+    const numerics::Lanes x = numerics::load_lanes(phi_re + i), y = numerics::load_lanes(phi_im + i);
+    const numerics::Lanes u = x * x - y * y, xy = x * y, v = xy + xy;
+    const numerics::Lanes w = numerics::load_lanes(weight + i), a = numerics::load_lanes(error_re + i),
+                          b = numerics::load_lanes(error_im + i);
     w_re += w * x;
     w_im += w * y;
     q_re += w * u;
@@ -65,20 +67,20 @@ STABLECUT_WIDE void add_sums(const double* phi_re, const double* phi_im, const d
     s_re += u * a + v * b;
     s_im += u * b - v * a;
   }
-  sums[0] += sum_of(w_re);
-  sums[1] += sum_of(w_im);
-  sums[2] += sum_of(q_re);
-  sums[3] += sum_of(q_im);
-  sums[4] += sum_of(e_re);
-  sums[5] += sum_of(e_im);
-  sums[6] += sum_of(s_re);
-  sums[7] += sum_of(s_im);
+  sums[0] += numerics::sum_of(w_re);
+  sums[1] += numerics::sum_of(w_im);
+  sums[2] += numerics::sum_of(q_re);
+  sums[3] += numerics::sum_of(q_im);
+  sums[4] += numerics::sum_of(e_re);
+  sums[5] += numerics::sum_of(e_im);
+  sums[6] += numerics::sum_of(s_re);
+  sums[7] += numerics::sum_of(s_im);
 }
 
 }  // namespace
 
 ResidualSums::ResidualSums(const FitData& data) : curves_(static_cast<Eigen::Index>(data.curves.size())) {
-  const Eigen::Index lines = (data.lines() + kLanes - 1) / kLanes * kLanes;
+  const Eigen::Index lines = (data.lines() + numerics::kLanes - 1) / numerics::kLanes * numerics::kLanes;
   omega_ = Eigen::ArrayXd::Zero(lines);
   omega_.head(data.lines()) = data.s.imag();
   weight_ = h_re_ = h_im_ = Eigen::ArrayXXd::Zero(lines, curves_);
@@ -133,4 +135,4 @@ double ResidualSums::evaluate(const Eigen::VectorXcd& poles, const Eigen::Matrix
   return chi_square;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

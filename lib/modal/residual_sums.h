@@ -6,7 +6,7 @@
 
 #include "modal/fit_data.h"
 
-namespace stablecut {
+namespace stablecut::modal {
 
 /// Sums over the lines of one curve, for all poles and then for their conjugates: [2 poles]. phi is 1 / (i w
 /// - pole), w the weight and e = model - h.
@@ -34,4 +34,4 @@ class ResidualSums {
   Eigen::ArrayXXd h_re_, h_im_;  // [lines x curves]
 };
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

@@ -9,7 +9,7 @@
 #include "dynamics/modal_model.h"
 #include "modal/vector_fitting.h"
 
-namespace stablecut {
+namespace stablecut::modal {
 namespace {
 
 constexpr int kLeastPairs = 3;
@@ -26,8 +26,8 @@ std::vector<StabilizationPole> poles_of(const FitData& data, int order) {
   std::vector<StabilizationPole> result;
   for (const auto& pole : poles) {
     if (pole.imag() < data.s[0].imag() || pole.imag() > data.s[data.lines() - 1].imag()) continue;
-    Mode mode;
-    set_pole(mode, pole);
+    dynamics::Mode mode;
+    dynamics::set_pole(mode, pole);
     result.push_back({mode.frequency_hz, mode.damping_ratio, Stability::kNew});
   }
   return result;
@@ -77,7 +77,7 @@ std::vector<StabilizationOrder> stabilization(const std::vector<FitData>& groups
   return result;
 }
 
-Eigen::MatrixXd mode_indicator(const FrequencyResponse& frf) {
+Eigen::MatrixXd mode_indicator(const dynamics::FrequencyResponse& frf) {
   const std::vector<std::string> names = direction_names(frf);
   const auto index = [&](const std::string& name) {
     return static_cast<Eigen::Index>(std::find(names.begin(), names.end(), name) - names.begin());
@@ -92,4 +92,4 @@ Eigen::MatrixXd mode_indicator(const FrequencyResponse& frf) {
   return values;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

@@ -8,7 +8,7 @@
 #include "dynamics/frequency_response.h"
 #include "modal/fit_data.h"
 
-namespace stablecut {
+namespace stablecut::modal {
 
 /// What a pole has in common with the nearest one of the order before.
 enum class Stability {
@@ -35,6 +35,6 @@ std::vector<StabilizationOrder> stabilization(const std::vector<FitData>& groups
 
 /// Complex mode indicator function: singular values of H on each line, largest first, [lines x directions]. A
 /// missing entry counts as zero. Peaks of the second show a second mode at the same frequency.
-Eigen::MatrixXd mode_indicator(const FrequencyResponse& frf);
+Eigen::MatrixXd mode_indicator(const dynamics::FrequencyResponse& frf);
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

@@ -5,15 +5,16 @@
 #include "modal/modal_fixtures_test.h"
 
 using namespace stablecut;
+using namespace stablecut::modal;
 
 TEST_CASE("the modes are stable poles once there are enough") {
-  const ModalModel truth = fixtures::close_pair();
+  const dynamics::ModalModel truth = fixtures::close_pair();
   const auto orders = stabilization({fixtures::data_of(truth, 1e-3)}, 9, 2, {});
   REQUIRE(orders.size() == 7);
   CHECK(orders.front().order == 3);
   CHECK(orders.back().order == 9);
   for (std::size_t o = 3; o < orders.size(); ++o) {
-    for (const Mode& mode : truth.modes) {
+    for (const dynamics::Mode& mode : truth.modes) {
       INFO("order " << orders[o].order << ", " << mode.frequency_hz << " Hz");
       CHECK(std::any_of(orders[o].poles.begin(), orders[o].poles.end(), [&](const StabilizationPole& pole) {
         return pole.stability == Stability::kPole &&
@@ -36,7 +37,8 @@ TEST_CASE("few lines allow few orders") {
 }
 
 TEST_CASE("the mode indicator is the singular values, largest first") {
-  const FrequencyResponse frf = synthesize(fixtures::close_pair(), Eigen::VectorXd::LinSpaced(5, 100, 140));
+  const dynamics::FrequencyResponse frf =
+      dynamics::synthesize(fixtures::close_pair(), Eigen::VectorXd::LinSpaced(5, 100, 140));
   const Eigen::MatrixXd values = mode_indicator(frf);
   REQUIRE(values.rows() == 5);
   REQUIRE(values.cols() == 2);

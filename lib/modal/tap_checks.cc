@@ -10,7 +10,7 @@
 #include "dynamics/noise.h"
 #include "modal/disturbed_lines.h"
 
-namespace stablecut {
+namespace stablecut::modal {
 namespace {
 
 using Complex = std::complex<double>;
@@ -38,7 +38,9 @@ constexpr double kLargestPeak = 1e-2, kSmallestPeak = 1e-11;  // m/N
 
 std::string number(double value) { return printed("%.3g", value); }
 
-std::string name_of(const FrequencyResponseEntry& entry) { return "H" + entry.response + entry.reference; }
+std::string name_of(const dynamics::FrequencyResponseEntry& entry) {
+  return "H" + entry.response + entry.reference;
+}
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -78,7 +80,7 @@ std::vector<Window> windows_of(const Eigen::VectorXd& hz, const Eigen::VectorXcd
 
 // One entry with what its lines say.
 struct Channel {
-  const FrequencyResponseEntry* entry = nullptr;
+  const dynamics::FrequencyResponseEntry* entry = nullptr;
   Eigen::VectorXd variance;  // of the noise, [lines]
   std::vector<Window> windows;
   bool driving_point = false;
@@ -86,20 +88,22 @@ struct Channel {
   bool dead = false;
 };
 
-bool is_driving_point(const FrequencyResponseEntry& entry) {
+bool is_driving_point(const dynamics::FrequencyResponseEntry& entry) {
   return entry.response == entry.reference &&
          entry.response_position_m.value_or(0) == entry.reference_position_m.value_or(0);
 }
 
 class TapChecks {
  public:
-  TapChecks(const FrequencyResponse& receptance, bool zeros_are_dead)
+  TapChecks(const dynamics::FrequencyResponse& receptance, bool zeros_are_dead)
       : frf_(receptance), hz_(receptance.frequency_hz), zeros_are_dead_(zeros_are_dead) {
-    const NoiseShapes floors = floor_shapes(hz_);
+    const dynamics::NoiseShapes floors = dynamics::floor_shapes(hz_);
     for (const auto& entry : frf_.entries) {
       if (entry.h.isZero(0)) continue;
-      Channel channel{
-          &entry, estimated_variance(hz_, entry.h, entry.h.cwiseAbs(), floors), {}, is_driving_point(entry)};
+      Channel channel{&entry,
+                      dynamics::estimated_variance(hz_, entry.h, entry.h.cwiseAbs(), floors),
+                      {},
+                      is_driving_point(entry)};
       channel.windows = windows_of(hz_, entry.h, channel.variance);
       const auto windows = [&](double sign) {
         return std::count_if(channel.windows.begin(), channel.windows.end(),
@@ -311,7 +315,7 @@ class TapChecks {
   }
 
   // Where a channel responds, its coherence should be near 1.
-  void coherence(const FrequencyResponseEntry& entry) {
+  void coherence(const dynamics::FrequencyResponseEntry& entry) {
     if (entry.coherence.size() == 0) return;
     const Eigen::VectorXd size = entry.h.cwiseAbs();
     const double typical = median(std::vector<double>(size.begin(), size.end()));
@@ -334,7 +338,7 @@ class TapChecks {
   }
 
   // Two hits make the force vanish on lines at equal distances: one period holds most of the dips.
-  std::optional<double> time_between_hits(const FrequencyResponseEntry& entry) const {
+  std::optional<double> time_between_hits(const dynamics::FrequencyResponseEntry& entry) const {
     constexpr double kMostDips = 200, kLeastDips = 4, kStep = 0.25;
     const Eigen::Index lines = hz_.size();
     const Eigen::VectorXd dips = (1 - entry.coherence.array()).matrix();
@@ -382,7 +386,7 @@ class TapChecks {
     return lines;
   }
 
-  const FrequencyResponse& frf_;
+  const dynamics::FrequencyResponse& frf_;
   const Eigen::VectorXd& hz_;
   const bool zeros_are_dead_;
   std::vector<Channel> channels_;
@@ -392,9 +396,9 @@ class TapChecks {
 
 }  // namespace
 
-TapReport check_tap(const FrequencyResponse& receptance, bool zeros_are_dead) {
+TapReport check_tap(const dynamics::FrequencyResponse& receptance, bool zeros_are_dead) {
   if (receptance.frequency_hz.size() < kLeastLines) return {};
   return TapChecks(receptance, zeros_are_dead).report();
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

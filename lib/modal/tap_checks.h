@@ -7,7 +7,7 @@
 
 #include "dynamics/frequency_response.h"
 
-namespace stablecut {
+namespace stablecut::modal {
 
 struct TapReport {
   /// In words, one each: uneven lines; a band at either end where integration or noise has ruined the data;
@@ -22,6 +22,6 @@ struct TapReport {
 
 /// Looks at a receptance (m/N) with lines above 0 Hz. An entry of exact zeros is a dead channel where
 /// `zeros_are_dead`, else uncoupled. Nothing is said of fewer than 20 lines.
-TapReport check_tap(const FrequencyResponse& receptance, bool zeros_are_dead);
+TapReport check_tap(const dynamics::FrequencyResponse& receptance, bool zeros_are_dead);
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

@@ -5,23 +5,24 @@
 #include <cmath>
 #include <complex>
 
-#include "base/normal.h"
 #include "base/units.h"
 #include "dynamics/synthesis.h"
 #include "modal/fit.h"
+#include "numerics/random_normal.h"
 
 using namespace stablecut;
+using namespace stablecut::modal;
 using Complex = std::complex<double>;
 
 namespace {
 
 // A tool tip with three modes, passive: psi real and a pole's residue psi psi^T / (2 i omega).
-ModalModel tip() {
-  ModalModel model;
+dynamics::ModalModel tip() {
+  dynamics::ModalModel model;
   model.dofs = {"x", "y"};
   for (const auto& [hz, zeta, x, y] : {std::array{150.0, 0.02, 0.5, 0.3}, std::array{320.0, 0.03, -0.3, 0.4},
                                        std::array{700.0, 0.015, 0.2, 0.3}}) {
-    Mode mode;
+    dynamics::Mode mode;
     mode.frequency_hz = hz;
     mode.damping_ratio = zeta;
     const Complex phase = std::sqrt(Complex(0, -1) / (2 * kTwoPi * hz));
@@ -31,25 +32,26 @@ ModalModel tip() {
   return model;
 }
 
-FrequencyResponse tap(const Eigen::VectorXd& lines) {
-  FrequencyResponse frf = synthesize(tip(), lines);
-  add_noise(frf, {40.0, std::nullopt, 3});
+dynamics::FrequencyResponse tap(const Eigen::VectorXd& lines) {
+  dynamics::FrequencyResponse frf = dynamics::synthesize(tip(), lines);
+  dynamics::add_noise(frf, {40.0, std::nullopt, 3});
   for (auto& entry : frf.entries) entry.variance.resize(0);
   return frf;
 }
 
 Eigen::VectorXd usual_lines() { return Eigen::VectorXd::LinSpaced(1991, 5, 1000); }
 
-std::vector<std::string> findings_on(const FrequencyResponse& frf, bool zeros_are_dead) {
+std::vector<std::string> findings_on(const dynamics::FrequencyResponse& frf, bool zeros_are_dead) {
   return check_tap(frf, zeros_are_dead).findings;
 }
 
-std::vector<Eigen::Index> disturbed_on(const FrequencyResponse& frf) {
+std::vector<Eigen::Index> disturbed_on(const dynamics::FrequencyResponse& frf) {
   return check_tap(frf, true).disturbed_lines;
 }
 
 // How many findings hold the text.
-std::ptrdiff_t count(const FrequencyResponse& frf, const std::string& text, bool zeros_are_dead = true) {
+std::ptrdiff_t count(const dynamics::FrequencyResponse& frf, const std::string& text,
+                     bool zeros_are_dead = true) {
   const auto findings = findings_on(frf, zeros_are_dead);
   for (const auto& finding : findings) UNSCOPED_INFO(finding);
   return std::count_if(findings.begin(), findings.end(),
@@ -57,8 +59,8 @@ std::ptrdiff_t count(const FrequencyResponse& frf, const std::string& text, bool
 }
 
 template <typename Change>
-FrequencyResponse changed(std::size_t entry, const Change& change) {
-  FrequencyResponse frf = tap(usual_lines());
+dynamics::FrequencyResponse changed(std::size_t entry, const Change& change) {
+  dynamics::FrequencyResponse frf = tap(usual_lines());
   for (Eigen::Index i = 0; i < frf.frequency_hz.size(); ++i)
     frf.entries[entry].h[i] = change(frf.entries[entry].h[i], kTwoPi * frf.frequency_hz[i]);
   return frf;
@@ -70,7 +72,7 @@ TEST_CASE("a sound tap has no findings") {
   CHECK(findings_on(tap(usual_lines()), true).empty());
   CHECK(disturbed_on(tap(usual_lines())).empty());
   // Nor a suspended one, whose mass line rises towards 0 Hz, real and negative.
-  FrequencyResponse free = tap(usual_lines());
+  dynamics::FrequencyResponse free = tap(usual_lines());
   for (Eigen::Index i = 0; i < free.frequency_hz.size(); ++i)
     free.entries[0].h[i] -= 1 / (40 * std::pow(kTwoPi * free.frequency_hz[i], 2));
   CHECK(findings_on(free, true).empty());
@@ -88,24 +90,24 @@ TEST_CASE("drift that integration made at the low end, and noise at the high end
       changed(0, [](Complex h, double omega) { return h + Complex(-0.3, 1) * 2.0 / std::pow(omega, 3); });
   CHECK(count(drift, "Hz Hxx rises towards 0 Hz as no structure does") == 1);
   // Noise of the acceleration.
-  FrequencyResponse noise = tap(usual_lines());
+  dynamics::FrequencyResponse noise = tap(usual_lines());
   std::mt19937_64 generator(5);
   // It condemns the band in a driving point only.
   for (const std::size_t entry : {1u, 0u}) {
     for (Eigen::Index i = 0; i < noise.frequency_hz.size(); ++i)
       noise.entries[entry].h[i] +=
-          0.05 * unit_complex_normal(generator) / std::pow(kTwoPi * noise.frequency_hz[i], 2);
+          0.05 * numerics::unit_complex_normal(generator) / std::pow(kTwoPi * noise.frequency_hz[i], 2);
     CHECK(count(noise, "rises towards 0 Hz") == (entry == 0 ? 1 : 0));
   }
-  FrequencyResponse high = tap(usual_lines());
+  dynamics::FrequencyResponse high = tap(usual_lines());
   for (Eigen::Index i = 1600; i < high.frequency_hz.size(); ++i)
-    high.entries[0].h[i] *= 1.0 + unit_complex_normal(generator);
+    high.entries[0].h[i] *= 1.0 + numerics::unit_complex_normal(generator);
   CHECK(count(high, "within 10 dB of its noise") == 1);
 }
 
 TEST_CASE("dead channels") {
   std::mt19937_64 generator(5);
-  CHECK(count(changed(1, [&](Complex, double) { return 1e-9 * unit_complex_normal(generator); }),
+  CHECK(count(changed(1, [&](Complex, double) { return 1e-9 * numerics::unit_complex_normal(generator); }),
               "Hxy: nothing but noise") == 1);
   CHECK(count(changed(1, [&](Complex, double) { return Complex(1e-9, 0); }),
               "Hxy: the same value on every line") == 1);
@@ -126,7 +128,7 @@ TEST_CASE("signs and quantities that a driving point cannot have") {
   CHECK(count(changed(0, [](Complex h, double w) { return Complex(0, w) * h; }), "is it a velocity") == 1);
   CHECK(count(changed(1, [](Complex h, double) { return -h; }), "Hxy is Hyx with the other sign") == 1);
   // A cross entry of either sign is sound.
-  FrequencyResponse both = tap(usual_lines());
+  dynamics::FrequencyResponse both = tap(usual_lines());
   both.entries[1].h *= -1;
   both.entries[2].h *= -1;
   CHECK(findings_on(both, true).empty());
@@ -134,13 +136,13 @@ TEST_CASE("signs and quantities that a driving point cannot have") {
 
 TEST_CASE("a unit that is none of m/N") {
   CHECK(count(changed(0, [](Complex h, double) { return 1e6 * h; }), "the largest receptance is") == 1);
-  FrequencyResponse stiff = tap(usual_lines());
+  dynamics::FrequencyResponse stiff = tap(usual_lines());
   for (auto& entry : stiff.entries) entry.h *= 1e-9;
   CHECK(count(stiff, "as stiff as") == 1);
 }
 
 TEST_CASE("poor coherence, and the time between two hits") {
-  FrequencyResponse frf = tap(usual_lines());
+  dynamics::FrequencyResponse frf = tap(usual_lines());
   frf.entries[0].coherence = Eigen::VectorXd::Constant(frf.frequency_hz.size(), 0.99);
   CHECK(findings_on(frf, true).empty());
   // A second hit of 90 % after 12 ms: the force nearly vanishes every 83 Hz.
@@ -156,20 +158,20 @@ TEST_CASE("poor coherence, and the time between two hits") {
 }
 
 TEST_CASE("single disturbed lines are found, resonances are not") {
-  FrequencyResponse frf = tap(usual_lines());
+  dynamics::FrequencyResponse frf = tap(usual_lines());
   for (const Eigen::Index line : {90, 290, 490}) frf.entries[1].h[line] += Complex(3e-6, -5e-6);
   CHECK(disturbed_on(frf) == std::vector<Eigen::Index>{90, 290, 490});
   // A mode of half the width of the spacing between lines, and one of a tenth, without noise and with.
   for (const double share : {0.5, 0.1}) {
-    ModalModel sharp = tip();
+    dynamics::ModalModel sharp = tip();
     sharp.modes[0].damping_ratio = share * 0.5 / 150.1;
     sharp.modes[0].frequency_hz = 150.1;
-    FrequencyResponse narrow = synthesize(sharp, usual_lines());
+    dynamics::FrequencyResponse narrow = dynamics::synthesize(sharp, usual_lines());
     CHECK(disturbed_on(narrow).empty());
-    add_noise(narrow, {60.0, std::nullopt, 3});
+    dynamics::add_noise(narrow, {60.0, std::nullopt, 3});
     CHECK(disturbed_on(narrow).empty());
   }
   // Left out, they make no modes.
-  const ModalFit fit = fit_modes(without_lines(frf, disturbed_on(frf)));
+  const ModalFit fit = fit_modes(dynamics::without_lines(frf, disturbed_on(frf)));
   CHECK(fit.model.modes.size() == 3);
 }

@@ -8,7 +8,7 @@
 
 #include "modal/pole_sums.h"
 
-namespace stablecut {
+namespace stablecut::modal {
 namespace {
 
 using Complex = std::complex<double>;
@@ -214,4 +214,4 @@ LinearResidues linear_residues(const FitData& data, const Eigen::VectorXcd& pole
   return result;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

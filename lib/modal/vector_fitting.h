@@ -7,7 +7,7 @@
 
 #include "modal/fit_data.h"
 
-namespace stablecut {
+namespace stablecut::modal {
 
 /// Start poles over the band of the data: a third spaced by logarithm, a third evenly, and a third where the
 /// curves turn most, and one more on either side of the band. `pairs` at least 3. Positive imaginary parts,
@@ -27,4 +27,4 @@ struct LinearResidues {
 };
 LinearResidues linear_residues(const FitData& data, const Eigen::VectorXcd& poles);
 
-}  // namespace stablecut
+}  // namespace stablecut::modal

@@ -6,10 +6,11 @@
 #include "modal/modal_fixtures_test.h"
 
 using namespace stablecut;
+using namespace stablecut::modal;
 using Complex = std::complex<double>;
 
 TEST_CASE("relocation of as many poles as there are finds them in exact data") {
-  const ModalModel truth = fixtures::close_pair();
+  const dynamics::ModalModel truth = fixtures::close_pair();
   const FitData data = fixtures::data_of(truth, 1e-3);
   Eigen::VectorXcd poles(4);
   poles << Complex(-6, 500), Complex(-9, 900), Complex(-20, 2000), Complex(-40, 5000);
@@ -29,7 +30,7 @@ TEST_CASE("relocation of as many poles as there are finds them in exact data") {
 }
 
 TEST_CASE("a pole that is no mode costs nothing to leave out") {
-  const ModalModel truth = fixtures::close_pair();
+  const dynamics::ModalModel truth = fixtures::close_pair();
   const FitData data = fixtures::data_of(truth, 1e-3);
   Eigen::VectorXcd poles(5);
   for (Eigen::Index k = 0; k < 4; ++k) poles[k] = truth.modes[static_cast<std::size_t>(k)].pole();

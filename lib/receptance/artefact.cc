@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 
-namespace stablecut {
+namespace stablecut::receptance {
 
 using Complex = std::complex<double>;
 
@@ -49,4 +49,4 @@ Inverse inverse_of(const std::vector<const Tap*>& taps, Artefact& artefact, bool
   return inverse;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::receptance

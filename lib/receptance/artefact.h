@@ -7,7 +7,7 @@
 #include "receptance/held_tool.h"
 #include "receptance/taps.h"
 
-namespace stablecut {
+namespace stablecut::receptance {
 
 /// A known free part at one angular frequency (rad/s).
 class Artefact {
@@ -47,4 +47,4 @@ struct Inverse {
 Inverse inverse_of(const std::vector<const Tap*>& taps, Artefact& artefact, bool symmetric,
                    Eigen::Index line);
 
-}  // namespace stablecut
+}  // namespace stablecut::receptance

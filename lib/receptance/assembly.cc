@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "base/units.h"
 
-namespace stablecut {
+namespace stablecut::receptance {
 namespace {
 
 // Both directions from one or from each: blocks on the diagonal.
@@ -75,4 +75,4 @@ Receptance<4> Assembly::along_tool(Eigen::Index line, double response_m, double 
   });
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::receptance

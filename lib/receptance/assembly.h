@@ -7,7 +7,7 @@
 
 #include "receptance/held_tool.h"
 
-namespace stablecut {
+namespace stablecut::receptance {
 
 /// What the innermost segment of a holder stands on; without segments, what the joint does.
 enum class HolderEnd {
@@ -43,4 +43,4 @@ struct Assembly {
   Receptance<4> along_tool(Eigen::Index line, double response_m, double reference_m) const;
 };
 
-}  // namespace stablecut
+}  // namespace stablecut::receptance

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "receptance/coupling.h"
 
-namespace stablecut {
+namespace stablecut::receptance {
 namespace {
 
 using Complex = std::complex<double>;
@@ -205,4 +205,4 @@ Receptance<N> SegmentMotion::held(const Receptance<N>& holder) const {
 template Receptance<2> SegmentMotion::held<2>(const Receptance<2>&) const;
 template Receptance<4> SegmentMotion::held<4>(const Receptance<4>&) const;
 
-}  // namespace stablecut
+}  // namespace stablecut::receptance

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <complex>
 
-namespace stablecut {
+namespace stablecut::receptance {
 
 /// Deflection (m) and slope (rad) per force (N) and moment (N m), in one direction (N = 2: [[h, l], [n, p]])
 /// or in x and y (N = 4: w_x, slope_x, w_y, slope_y). The slope is d(deflection)/ds with s from the joint
@@ -73,4 +73,4 @@ class SegmentMotion {
   BeamReceptances free_;
 };
 
-}  // namespace stablecut
+}  // namespace stablecut::receptance

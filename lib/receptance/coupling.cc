@@ -1,6 +1,6 @@
 #include "receptance/coupling.h"
 
-namespace stablecut {
+namespace stablecut::receptance {
 
 BeamReceptances joined(const BeamReceptances& outer, const BeamReceptances& inner) {
   // The load through the joint per load at the outer and at the inner end.
@@ -10,4 +10,4 @@ BeamReceptances joined(const BeamReceptances& outer, const BeamReceptances& inne
           inner.r22 - inner.r21 * from_inner};
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::receptance

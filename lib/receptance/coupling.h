@@ -5,7 +5,7 @@
 
 #include "receptance/beam.h"
 
-namespace stablecut {
+namespace stablecut::receptance {
 
 /// The joint between tool and holder: translational and rotational spring and damper. N/m, N s/m, N m/rad, N
 /// m s/rad.
@@ -39,4 +39,4 @@ Receptance<N> holder_of_tip(const BeamReceptances& tool, const Receptance<N>& ti
          in_all_directions<N>(tool.r22);
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::receptance

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 
-namespace stablecut {
+namespace stablecut::receptance {
 namespace {
 
 // Outer and inner part of a chain cut at a distance from its tip; at an end one of them is empty.
@@ -173,4 +173,4 @@ STABLECUT_FOR_DIRECTIONS(2)
 STABLECUT_FOR_DIRECTIONS(4)
 #undef STABLECUT_FOR_DIRECTIONS
 
-}  // namespace stablecut
+}  // namespace stablecut::receptance

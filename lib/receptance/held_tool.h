@@ -5,7 +5,7 @@
 
 #include "receptance/coupling.h"
 
-namespace stablecut {
+namespace stablecut::receptance {
 
 /// A part of segments in a row, outermost first, joined rigidly.
 using BeamChain = std::vector<BeamSegment>;
@@ -64,4 +64,4 @@ Receptance<2> free_response_to_end(const BeamChain& tool, BeamTheory theory, dou
 Receptance<2> free_receptance_along(const BeamChain& tool, BeamTheory theory, double omega_rad_per_s,
                                     double response_m, double reference_m);
 
-}  // namespace stablecut
+}  // namespace stablecut::receptance

@@ -12,7 +12,7 @@
 #include "dynamics/noise.h"
 #include "receptance/joint_starts.h"
 
-namespace stablecut {
+namespace stablecut::receptance {
 namespace {
 
 using Complex = std::complex<double>;
@@ -203,8 +203,8 @@ void set_deviations(const TipLines& lines, const JointBounds& bounds, JointObjec
   // brings less than its length.
   const double parts = objective == JointObjective::kAmplitude ? 1 : 2;
   const double numbers = parts * static_cast<double>(lines.size());
-  double variance =
-      std::max(residual.squaredNorm(), floor) / std::max(1.0, numbers - 4.0) * correlation_length(residual);
+  double variance = std::max(residual.squaredNorm(), floor) / std::max(1.0, numbers - 4.0) *
+                    dynamics::correlation_length(residual);
   if (known_noise) variance = std::max(variance, 1 / parts);
   const Eigen::VectorXd scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   // What the lines do not tell apart has next to no information, not none: its deviation is then very large.
@@ -304,7 +304,7 @@ JointEstimate identify_joint(const JointData& data, const JointBounds& bounds, J
       const Eigen::VectorXcd of_share = model_of(lines, share.joint);
       const Eigen::VectorXd noise = of_share.cwiseAbs();
       if (surprise(of_share - data.tip, noise) < expected &&
-          correlation_length((of_share - data.tip).cwiseQuotient(noise.cast<Complex>())) < kWhite) {
+          dynamics::correlation_length((of_share - data.tip).cwiseQuotient(noise.cast<Complex>())) < kWhite) {
         best = share;
       } else {
         weigh([&](Eigen::Index) { return size * size; });
@@ -323,4 +323,4 @@ JointEstimate identify_joint(const JointData& data, const JointBounds& bounds, J
   return estimate;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::receptance

@@ -7,7 +7,7 @@
 
 #include "receptance/held_tool.h"
 
-namespace stablecut {
+namespace stablecut::receptance {
 
 /// k1, c1, k2, c2 in the order of ToolJoint, in its units.
 using JointValues = std::array<double, 4>;
@@ -61,4 +61,4 @@ struct JointEstimate {
 /// than kLeastJointLines lines, NoAnswer where no joint can be found.
 JointEstimate identify_joint(const JointData& data, const JointBounds& bounds, JointObjective objective);
 
-}  // namespace stablecut
+}  // namespace stablecut::receptance

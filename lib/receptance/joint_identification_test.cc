@@ -9,7 +9,8 @@
 #include "receptance/receptance_fixtures_test.h"
 
 using namespace stablecut;
-using namespace stablecut::fixtures;
+using namespace stablecut::receptance;
+using namespace stablecut::receptance::fixtures;
 
 namespace {
 
@@ -38,7 +39,7 @@ Eigen::VectorXcd tip_with(const JointData& data, const ToolJoint& joint) {
 }
 
 // Circular noise of a standard deviation (both parts together).
-void add_noise(Eigen::VectorXcd& tip, double deviation, std::mt19937_64& random) {
+void add_circular_noise(Eigen::VectorXcd& tip, double deviation, std::mt19937_64& random) {
   std::normal_distribution<double> normal(0, deviation / std::sqrt(2.0));
   for (auto& value : tip) {
     const double re = normal(random), im = normal(random);
@@ -114,7 +115,7 @@ TEST_CASE("noise 40 dB below the curve's size: at the Cramer-Rao bound, and what
     for (int seed = 1; seed <= kSeeds; ++seed) {
       std::mt19937_64 random(static_cast<std::uint64_t>(seed));
       data.tip = exact;
-      add_noise(data.tip, deviation, random);
+      add_circular_noise(data.tip, deviation, random);
       const JointEstimate estimate = identify_joint(data, {}, JointObjective::kComplex);
       CHECK(estimate.identifiable == c.identifiable);
       const JointValues found = values_of(estimate.joint);
@@ -147,7 +148,7 @@ TEST_CASE("no start is missed: random joints over seven decades, with and withou
     const double deviation =
         (run % 2) * 0.01 * data.tip.norm() / std::sqrt(static_cast<double>(data.tip.size()));
     const Eigen::VectorXcd exact = data.tip;
-    add_noise(data.tip, deviation, random);
+    add_circular_noise(data.tip, deviation, random);
     const JointEstimate estimate = identify_joint(data, {}, JointObjective::kComplex);
     // The true joint is no better.
     const double error = (tip_with(data, estimate.joint) - data.tip).norm();

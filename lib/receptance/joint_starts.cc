@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace stablecut {
+namespace stablecut::receptance {
 namespace {
 
 using Complex = std::complex<double>;
@@ -114,4 +114,4 @@ std::vector<JointStart> joint_starts(const TipLines& all, const JointBounds& bou
   return best_of(std::move(found), kStarts);
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::receptance

@@ -5,7 +5,7 @@
 
 #include "receptance/tip_line.h"
 
-namespace stablecut {
+namespace stablecut::receptance {
 
 struct JointStart {
   ToolJoint joint;
@@ -24,4 +24,4 @@ std::vector<JointStart> best_of(std::vector<JointStart> all, std::size_t most);
 std::vector<JointStart> joint_starts(const TipLines& lines, const JointBounds& bounds,
                                      JointObjective objective);
 
-}  // namespace stablecut
+}  // namespace stablecut::receptance

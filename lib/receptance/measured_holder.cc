@@ -13,7 +13,7 @@
 #include "receptance/artefact.h"
 #include "receptance/taps.h"
 
-namespace stablecut {
+namespace stablecut::receptance {
 namespace {
 
 using Complex = std::complex<double>;
@@ -298,7 +298,7 @@ MeasuredHolder measured_holder(const HolderMeasurement& measurement, BeamTheory 
   return HolderBuilder(measurement, theory, frequency_hz).build();
 }
 
-MeasuredHolder modal_holder(const ModalModel& model, const Eigen::VectorXd& frequency_hz) {
+MeasuredHolder modal_holder(const dynamics::ModalModel& model, const Eigen::VectorXd& frequency_hz) {
   std::array<Eigen::Index, 4> row{};
   for (std::size_t i = 0; i < 4; ++i) row[i] = model.dof(kCoordinates[i]);
   MeasuredHolder holder;
@@ -314,7 +314,7 @@ MeasuredHolder modal_holder(const ModalModel& model, const Eigen::VectorXd& freq
   if (row[0] < 0 && row[2] < 0)
     throw InvalidArgument("expected x and slope_x, y and slope_y, or one of the pairs");
   for (const double hz : frequency_hz) {
-    const Eigen::MatrixXcd h = receptance_at(model, Complex(0, rad_per_s_from_hz(hz)));
+    const Eigen::MatrixXcd h = dynamics::receptance_at(model, Complex(0, rad_per_s_from_hz(hz)));
     Receptance<4> at_joint = Receptance<4>::Zero();
     for (Eigen::Index i = 0; i < 4; ++i) {
       for (Eigen::Index j = 0; j < 4; ++j) {
@@ -328,4 +328,4 @@ MeasuredHolder modal_holder(const ModalModel& model, const Eigen::VectorXd& freq
   return holder;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::receptance

@@ -8,13 +8,13 @@
 #include "dynamics/modal_model.h"
 #include "receptance/held_tool.h"
 
-namespace stablecut {
+namespace stablecut::receptance {
 
 /// Taps on the holder's face, or on a known part that stands on it.
 struct HolderMeasurement {
-  FrequencyResponse frf;      ///< positions: distance inwards from the face, or from the artefact's tip
-  double sensor_mass_kg = 0;  ///< of the accelerometer at each entry's response; taken away
-  BeamChain artefact;         ///< from its tip to the face; empty: none
+  dynamics::FrequencyResponse frf;  ///< positions: distance inwards from the face, or from the artefact's tip
+  double sensor_mass_kg = 0;        ///< of the accelerometer at each entry's response; taken away
+  BeamChain artefact;               ///< from its tip to the face; empty: none
 };
 
 /// Where a direction's slopes come from.
@@ -56,6 +56,6 @@ MeasuredHolder measured_holder(const HolderMeasurement& measurement, BeamTheory 
                                const Eigen::VectorXd& frequency_hz);
 
 /// The same from modes; the dofs x and slope_x, y and slope_y, at least one pair. Throws InvalidArgument.
-MeasuredHolder modal_holder(const ModalModel& model, const Eigen::VectorXd& frequency_hz);
+MeasuredHolder modal_holder(const dynamics::ModalModel& model, const Eigen::VectorXd& frequency_hz);
 
-}  // namespace stablecut
+}  // namespace stablecut::receptance

@@ -9,7 +9,8 @@
 #include "receptance/receptance_fixtures_test.h"
 
 using namespace stablecut;
-using namespace stablecut::fixtures;
+using namespace stablecut::receptance;
+using namespace stablecut::receptance::fixtures;
 
 namespace {
 
@@ -19,11 +20,11 @@ constexpr int kDeflections[] = {0, 2};
 constexpr const char* kNames[] = {"x", "slope_x", "y", "slope_y"};
 
 // A spindle of three modes that move x, y and their slopes.
-ModalModel spindle(bool coupled) {
-  ModalModel model;
+dynamics::ModalModel spindle(bool coupled) {
+  dynamics::ModalModel model;
   model.dofs = {"x", "slope_x", "y", "slope_y"};
   for (int k = 0; k < 3; ++k) {
-    Mode mode;
+    dynamics::Mode mode;
     mode.frequency_hz = 600.0 + 700 * k;
     mode.damping_ratio = 0.03;
     const double size = 1e-2 / (k + 1), turn = 8.0 * (k + 1);
@@ -50,14 +51,14 @@ BeamChain artefact() {
 }
 
 // The taps of deflections on a held artefact (or on the bare holder, with places 0 only), at pairs of places.
-FrequencyResponse taps_on(const MeasuredHolder& holder, const BeamChain& chain, double mass_kg,
-                          const std::vector<std::pair<double, double>>& places) {
-  FrequencyResponse frf;
+dynamics::FrequencyResponse taps_on(const MeasuredHolder& holder, const BeamChain& chain, double mass_kg,
+                                    const std::vector<std::pair<double, double>>& places) {
+  dynamics::FrequencyResponse frf;
   frf.frequency_hz = kLines;
   for (const auto& [a, b] : places) {
     for (const int d : kDeflections) {
       for (const int e : kDeflections) {
-        FrequencyResponseEntry entry;
+        dynamics::FrequencyResponseEntry entry;
         entry.response = kNames[d];
         entry.reference = kNames[e];
         entry.response_position_m = a;
@@ -100,7 +101,7 @@ TEST_CASE("measured with slopes: the modes' receptance, coupled or not") {
   for (const bool coupled : {false, true}) {
     const MeasuredHolder expected = modal_holder(spindle(coupled), kLines);
     CHECK(expected.couples_directions == coupled);
-    HolderMeasurement measurement{synthesize(spindle(coupled), kLines), 0, {}};
+    HolderMeasurement measurement{dynamics::synthesize(spindle(coupled), kLines), 0, {}};
     const MeasuredHolder found = measured_holder(measurement, kTheory, kLines);
     CHECK(found.couples_directions == coupled);
     CHECK(largest_error(found, expected) < 1e-12);
@@ -108,7 +109,7 @@ TEST_CASE("measured with slopes: the modes' receptance, coupled or not") {
     CHECK(found.quality[0].unphysical_hz.empty());
     // Between the lines: the cubic is good where the lines are dense.
     const Eigen::VectorXd between = Eigen::VectorXd::LinSpaced(50, 500.25, 2500.75);
-    measurement.frf = synthesize(spindle(coupled), Eigen::VectorXd::LinSpaced(3000, 100, 3099));
+    measurement.frf = dynamics::synthesize(spindle(coupled), Eigen::VectorXd::LinSpaced(3000, 100, 3099));
     CHECK(largest_error(measured_holder(measurement, kTheory, between),
                         modal_holder(spindle(coupled), between)) < 1e-5);
     CHECK_THROWS_AS(measured_holder(measurement, kTheory, Eigen::VectorXd::LinSpaced(2, 50, 100)),
@@ -157,8 +158,8 @@ TEST_CASE("too few cross taps on an artefact are left out, too few direct ones g
 TEST_CASE("the finite difference: exact for a rigid holder, its noise and its energy are watched") {
   // A rigid body moves its places in a line: a spindle that turns about a point 100 mm behind its face.
   const MeasuredHolder body = [] {
-    ModalModel model = spindle(false);
-    for (Mode& mode : model.modes) {
+    dynamics::ModalModel model = spindle(false);
+    for (dynamics::Mode& mode : model.modes) {
       for (const Eigen::Index at : {0, 2})
         mode.psi_r[at + 1] = mode.psi_r[at] / 0.1, mode.psi_l[at + 1] = mode.psi_l[at] / 0.1;
     }
@@ -205,14 +206,14 @@ TEST_CASE("the finite difference: exact for a rigid holder, its noise and its en
 
 TEST_CASE("one direction, with or without entries across it; across one way only") {
   const MeasuredHolder expected = modal_holder(spindle(true), kLines);
-  const auto keep = [](FrequencyResponse frf, const std::vector<std::string>& kept) {
+  const auto keep = [](dynamics::FrequencyResponse frf, const std::vector<std::string>& kept) {
     std::erase_if(frf.entries, [&](const auto& e) {
       return std::find(kept.begin(), kept.end(), e.response + e.reference) == kept.end();
     });
     return frf;
   };
   const std::vector<std::pair<double, double>> places = {{0, 0}, {0, 0.03}, {0.03, 0}, {0.03, 0.03}};
-  const FrequencyResponse taps = taps_on(expected, artefact(), 0, places);
+  const dynamics::FrequencyResponse taps = taps_on(expected, artefact(), 0, places);
   for (const BeamChain& chain : {artefact(), BeamChain{}}) {
     const MeasuredHolder alone = measured_holder({keep(taps, {"xx"}), 0, chain}, kTheory, kLines);
     const MeasuredHolder across = measured_holder({keep(taps, {"xx", "yx"}), 0, chain}, kTheory, kLines);
@@ -229,19 +230,19 @@ TEST_CASE("one direction, with or without entries across it; across one way only
   CHECK(one_way.couples_directions);
   CHECK(largest_error(one_way, expected) < 1e-6);
   // Too little across: left out, not refused.
-  FrequencyResponse few = keep(taps, {"xx", "yy"});
+  dynamics::FrequencyResponse few = keep(taps, {"xx", "yy"});
   few.entries.push_back(taps.entries[1]);
   CHECK(measured_holder({few, 0, {}}, kTheory, kLines).cross_left_out);
   // h(0, S) and h(S, 0) say the same: two pairs of places go by differences.
-  FrequencyResponse two = keep(taps, {"xx"});
+  dynamics::FrequencyResponse two = keep(taps, {"xx"});
   two.entries.pop_back();
   CHECK(measured_holder({two, 0, artefact()}, kTheory, kLines).quality[0].slopes ==
         SlopeSource::kFiniteDifference);
 }
 
 TEST_CASE("a line at 0 Hz of a measured acceleration") {
-  FrequencyResponse frf = synthesize(spindle(false), kLines);
-  frf.quantity = Quantity::kAccelerance;
+  dynamics::FrequencyResponse frf = dynamics::synthesize(spindle(false), kLines);
+  frf.quantity = dynamics::Quantity::kAccelerance;
   for (auto& entry : frf.entries) {
     Eigen::VectorXcd h(kLines.size() + 1);
     h << 0, (-(6.283185307179586 * kLines).array().square() * entry.h.array()).matrix();
@@ -263,7 +264,7 @@ TEST_CASE("measurements that do not suffice") {
   refused({{0, 0}, {0, 0.01}, {0, 0.02}}, 0);
   refused({{0, 0.01}}, 0);
   refused({{0, 0}, {0.01, 0}}, 0.005);
-  ModalModel table = spindle(false);
+  dynamics::ModalModel table = spindle(false);
   table.dofs = {"x", "slope_x", "y", "z"};
   CHECK_THROWS_AS(modal_holder(table, kLines), InvalidArgument);
   table.dofs = {"u", "v", "w", "z"};

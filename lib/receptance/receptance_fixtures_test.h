@@ -4,7 +4,7 @@
 #include "base/units.h"
 #include "receptance/held_tool.h"
 
-namespace stablecut::fixtures {
+namespace stablecut::receptance::fixtures {
 
 constexpr BeamTheory kBoth[] = {BeamTheory::kEulerBernoulli, BeamTheory::kTimoshenko};
 
@@ -25,4 +25,4 @@ inline double relative(const Eigen::Matrix2cd& a, const Eigen::Matrix2cd& b) {
   return (a - b).cwiseAbs().cwiseQuotient(b.cwiseAbs()).maxCoeff();
 }
 
-}  // namespace stablecut::fixtures
+}  // namespace stablecut::receptance::fixtures

@@ -11,7 +11,8 @@
 #include "receptance/receptance_fixtures_test.h"
 
 using namespace stablecut;
-using namespace stablecut::fixtures;
+using namespace stablecut::receptance;
+using namespace stablecut::receptance::fixtures;
 
 namespace {
 

@@ -12,7 +12,7 @@
 #include "base/units.h"
 #include "dynamics/noise.h"
 
-namespace stablecut {
+namespace stablecut::receptance {
 
 const Tap* find(const Taps& taps, int response, int reference, double response_m, double reference_m) {
   const auto found = std::find_if(taps.begin(), taps.end(), [&](const Tap& tap) {
@@ -29,18 +29,18 @@ std::vector<const Tap*> taps_between(const Taps& taps, int response, int referen
   return result;
 }
 
-Taps taps_of(const FrequencyResponse& measured, const Eigen::VectorXd& frequency_hz) {
+Taps taps_of(const dynamics::FrequencyResponse& measured, const Eigen::VectorXd& frequency_hz) {
   // A line at 0 Hz has no receptance when acceleration was measured, and no assembly asks for it.
-  FrequencyResponse frf = to_receptance(
-      within_band(measured, std::numeric_limits<double>::min(), std::numeric_limits<double>::infinity()));
+  dynamics::FrequencyResponse frf = dynamics::to_receptance(dynamics::within_band(
+      measured, std::numeric_limits<double>::min(), std::numeric_limits<double>::infinity()));
   if (frf.frequency_hz.size() == 0) throw InvalidArgument("no line above 0 Hz");
   for (auto& entry : frf.entries) {
-    entry.variance = known_variance(entry);
+    entry.variance = dynamics::known_variance(entry);
     if (entry.variance.size() == 0)
-      entry.variance =
-          estimated_variance(frf.frequency_hz, entry.h, entry.h.cwiseAbs(), floor_shapes(frf.frequency_hz));
+      entry.variance = dynamics::estimated_variance(frf.frequency_hz, entry.h, entry.h.cwiseAbs(),
+                                                    dynamics::floor_shapes(frf.frequency_hz));
   }
-  frf = on_lines(frf, frequency_hz);
+  frf = dynamics::on_lines(frf, frequency_hz);
   Taps taps;
   for (const auto& entry : frf.entries) {
     const auto coordinate = [](const std::string& name) {
@@ -102,4 +102,4 @@ void complete_by_reciprocity(Taps& taps) {
   }
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::receptance

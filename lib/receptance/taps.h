@@ -7,7 +7,7 @@
 
 #include "dynamics/frequency_response.h"
 
-namespace stablecut {
+namespace stablecut::receptance {
 
 /// The coordinates of a Receptance<4>, by their names in documents.
 inline constexpr std::array<const char*, 4> kCoordinates = {"x", "slope_x", "y", "slope_y"};
@@ -38,7 +38,7 @@ std::vector<const Tap*> taps_between(const Taps& taps, int response, int referen
 
 /// The entries between kCoordinates on the given lines (Hz). Throws InvalidArgument for lines outside the
 /// measured band.
-Taps taps_of(const FrequencyResponse& measured, const Eigen::VectorXd& frequency_hz);
+Taps taps_of(const dynamics::FrequencyResponse& measured, const Eigen::VectorXd& frequency_hz);
 
 /// Takes away the mass of the sensor at each response: H = (1 + m w^2 D)^-1 H_measured, D the measured direct
 /// receptances (x and y) at its place. Throws InvalidArgument where the direct one is missing, and for
@@ -48,4 +48,4 @@ void remove_sensor(Taps& taps, double mass_kg, const Eigen::VectorXd& frequency_
 /// Between directions, what was measured one way only holds the other way as well.
 void complete_by_reciprocity(Taps& taps);
 
-}  // namespace stablecut
+}  // namespace stablecut::receptance

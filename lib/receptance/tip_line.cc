@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace stablecut {
+namespace stablecut::receptance {
 
 using Complex = std::complex<double>;
 
@@ -39,4 +39,4 @@ double cost_of(const TipLines& lines, const ToolJoint& joint, JointObjective obj
 
 double middle_of(const TipLines& lines) { return std::sqrt(lines.front().omega * lines.back().omega); }
 
-}  // namespace stablecut
+}  // namespace stablecut::receptance

@@ -6,7 +6,7 @@
 
 #include "receptance/joint_identification.h"
 
-namespace stablecut {
+namespace stablecut::receptance {
 
 /// What a line's tip is made of (displacement per force), and its measured value, m/N.
 struct TipLine {
@@ -62,4 +62,4 @@ double residual_of(const TipLine& line, const Tip& tip, JointObjective objective
 /// Sum of the squares over the lines; infinite where the tip is not finite.
 double cost_of(const TipLines& lines, const ToolJoint& joint, JointObjective objective);
 
-}  // namespace stablecut
+}  // namespace stablecut::receptance

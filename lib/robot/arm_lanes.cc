@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "base/units.h"
-#include "base/wide.h"
+#include "numerics/lanes.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 namespace {
 
 // Four doubles that the compiler keeps in vector registers: one of 256 bits where there are such, else two of
@@ -280,4 +280,4 @@ STABLECUT_WIDE void largest_arm_compliances(const double compliance[6][kArms], d
   store(mean + 2 * p * cosine, largest);
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

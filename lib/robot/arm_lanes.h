@@ -4,7 +4,7 @@
 // bytes.
 #pragma once
 
-namespace stablecut {
+namespace stablecut::robot {
 
 inline constexpr int kArms = 4;      ///< arm = 2 * rear shoulder + elbow on the negative side
 inline constexpr int kBranches = 8;  ///< branch = 4 * flipped wrist + arm
@@ -61,4 +61,4 @@ void arm_compliances(const ArmLanes& lanes, const double point[3], const double 
 /// The largest eigenvalue of each, m/N, to 1e-8 of the spread of the eigenvalues.
 void largest_arm_compliances(const double compliance[6][kArms], double largest[kArms]);
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 
 Eigen::Matrix3d translational_compliance(const RobotPose& pose, const JointAngles& joint_compliance) {
   const auto columns = translational_jacobian(pose, pose.tool.translation());
@@ -46,4 +46,4 @@ double stiffness_score(const Eigen::Matrix3d& compliance, const Eigen::Matrix3d&
   return (compliance * force_in_base(task, tool_rotation)).norm();
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

@@ -5,7 +5,7 @@
 
 #include "robot/kinematics.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 
 /// C_tt = J_v diag(c) J_v^T, m/N, base frame: the displacement of the tool point under a force there, with
 /// the links rigid and `joint_compliance` c in rad/(N m). Not the top-left block of (J^-T K_theta J^-1)^-1,
@@ -49,4 +49,4 @@ Eigen::Vector3d force_in_base(const StiffnessTask& task, const Eigen::Matrix3d& 
 double stiffness_score(const Eigen::Matrix3d& compliance, const Eigen::Matrix3d& tool_rotation,
                        const StiffnessTask& task);
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

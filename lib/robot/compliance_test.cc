@@ -11,7 +11,8 @@
 #include "robot/robot_fixtures_test.h"
 
 using namespace stablecut;
-using namespace stablecut::fixtures;
+using namespace stablecut::robot;
+using namespace stablecut::robot::fixtures;
 
 TEST_CASE("C_tt is the displacement block of the inverse of J^-T K J^-1") {
   const Robot robot = with_tool_offset(kr360(), 0.1);

@@ -4,7 +4,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 
-namespace stablecut {
+namespace stablecut::robot {
 namespace {
 
 constexpr double kUnseen = 1e-3;
@@ -41,4 +41,4 @@ Identifiability identifiability(const Eigen::MatrixXd& a, const Eigen::MatrixXd&
   return result;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

@@ -7,7 +7,7 @@
 
 #include "robot/robot.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 
 enum class Visibility {
   kVisible,
@@ -28,4 +28,4 @@ struct Identifiability {
 /// below 1e-6 of the largest singular value of the scaled columns.
 Identifiability identifiability(const Eigen::MatrixXd& a, const Eigen::MatrixXd& largest);
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

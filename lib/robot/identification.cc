@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "base/error.h"
-#include "base/statistics.h"
+#include "numerics/distributions.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 namespace {
 
 constexpr double kConfidence = 0.975;  // two-sided 95 %
@@ -219,7 +219,7 @@ class Fit {
       result.deviations_known = true;
       if (freedom > 0) {
         result.chi_square_per_dof = influence / freedom;
-        result.chi_square_tail = chi_square_tail(influence, freedom);
+        result.chi_square_tail = numerics::chi_square_tail(influence, freedom);
         if (result.chi_square_tail < kImplausible) {
           scale = influence / freedom;
           result.degrees_of_freedom = freedom;
@@ -251,7 +251,7 @@ class Fit {
       }
       double half = 0;
       if (result.deviations_known) {
-        half = student_t_quantile(kConfidence, result.degrees_of_freedom) *
+        half = numerics::student_t_quantile(kConfidence, result.degrees_of_freedom) *
                std::sqrt(result.covariance(joint, joint));
         result.low[static_cast<std::size_t>(joint)] = result.compliance[joint] - half;
         result.high[static_cast<std::size_t>(joint)] = result.compliance[joint] + half;
@@ -342,7 +342,7 @@ class Fit {
         variance = left > 0 ? std::max(sum - square, 0.0) / left : sum / freedom;
       }
       const double ratio = square / count / std::max(variance, rounding * rounding);
-      return std::pair{ratio, left > 0 ? f_tail(ratio, count, left) : 1};
+      return std::pair{ratio, left > 0 ? numerics::f_tail(ratio, count, left) : 1};
     };
     for (const Block& block : blocks_) {
       const auto rows = Eigen::seqN(block.first, block.count);
@@ -417,4 +417,4 @@ Identification identify_stiffness(const Robot& robot, const std::vector<LoadSamp
   return result;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

@@ -8,7 +8,7 @@
 #include "robot/identifiability.h"
 #include "robot/load_sample.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 
 struct IdentificationOptions {
   bool huber = false;                                   ///< robust: samples far off count less
@@ -65,4 +65,4 @@ struct Identification {
 Identification identify_stiffness(const Robot& robot, const std::vector<LoadSample>& samples,
                                   const IdentificationOptions& options);
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

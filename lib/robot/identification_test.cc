@@ -9,7 +9,8 @@
 #include "robot/robot_fixtures_test.h"
 
 using namespace stablecut;
-using namespace stablecut::fixtures;
+using namespace stablecut::robot;
+using namespace stablecut::robot::fixtures;
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/units.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 namespace {
 
 constexpr double kLengthTolerance = 1e-9;  // m
@@ -156,4 +156,4 @@ std::vector<JointAngles> copies_within_limits(const Robot& robot, const JointAng
   return copies;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

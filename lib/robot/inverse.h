@@ -8,7 +8,7 @@
 #include "robot/arm_lanes.h"
 #include "robot/robot.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 
 /// A set of angles that reaches the target.
 struct InverseSolution {
@@ -59,4 +59,4 @@ class InverseKinematics {
 std::vector<JointAngles> copies_within_limits(const Robot& robot, const JointAngles& angles,
                                               double margin_rad);
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

@@ -6,7 +6,7 @@
 
 #include "robot/kinematics.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 
 struct JointStiffness {
   std::array<std::optional<double>, kJoints> stiffness;  ///< N m/rad
@@ -15,4 +15,4 @@ struct JointStiffness {
   std::optional<Matrix6d> compliance_covariance;
 };
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

@@ -6,7 +6,7 @@
 
 #include "robot/arm_lanes.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 namespace {
 
 // The tool's x and y axes at redundancy angle 0.
@@ -93,4 +93,4 @@ Eigen::Isometry3d tool_frame(const Eigen::Vector3d& point, const Eigen::Vector3d
   return frame;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

@@ -3,7 +3,7 @@
 
 #include "robot/robot.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
@@ -40,4 +40,4 @@ double redundancy_angle(const Eigen::Isometry3d& tool);
 Eigen::Isometry3d tool_frame(const Eigen::Vector3d& point, const Eigen::Vector3d& axis,
                              double redundancy_rad);
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

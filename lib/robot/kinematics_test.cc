@@ -7,7 +7,8 @@
 #include "robot/robot_fixtures_test.h"
 
 using namespace stablecut;
-using namespace stablecut::fixtures;
+using namespace stablecut::robot;
+using namespace stablecut::robot::fixtures;
 
 TEST_CASE("the Jacobian is the derivative of the pose") {
   const Robot robot = with_tool_offset(kr360(), 0.2);

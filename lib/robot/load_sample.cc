@@ -1,6 +1,6 @@
 #include "robot/load_sample.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 
 ComplianceEquations compliance_equations(const Robot& robot, const std::vector<LoadSample>& samples,
                                          const std::array<bool, 3>& components) {
@@ -63,4 +63,4 @@ ComplianceEquations compliance_equations(const Robot& robot, const std::vector<L
   return equations;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

@@ -8,7 +8,7 @@
 
 #include "robot/kinematics.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 
 /// Forces, moments and measurements in the base frame; points in the flange frame, m.
 struct LoadSample {
@@ -40,4 +40,4 @@ struct ComplianceEquations {
 ComplianceEquations compliance_equations(const Robot& robot, const std::vector<LoadSample>& samples,
                                          const std::array<bool, 3>& components);
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 namespace {
 
 constexpr double kGain = 1e-9;   // least gain of the log determinant that an exchange is made for
@@ -102,4 +102,4 @@ MeasurementPlan plan_measurements(const Robot& robot, const std::vector<LoadSamp
   return plan;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

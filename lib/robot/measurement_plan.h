@@ -6,7 +6,7 @@
 #include "robot/identifiability.h"
 #include "robot/load_sample.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 
 struct MeasurementPlan {
   std::vector<int> chosen;          ///< indices of candidates, increasing; one may be there several times
@@ -22,4 +22,4 @@ struct MeasurementPlan {
 MeasurementPlan plan_measurements(const Robot& robot, const std::vector<LoadSample>& candidates,
                                   const std::array<bool, 3>& components, int count);
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

@@ -4,7 +4,7 @@
 
 #include "base/parallel.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 
 PlaneScan scan_plane(const Robot& robot, const PoseTask& task, int threads, const Progress& progress) {
   PlaneScan scan{task, {}};
@@ -60,4 +60,4 @@ PoseMap pose_map(const Robot& robot, const PlaneScan& scan) {
   return map;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

@@ -9,7 +9,7 @@
 #include "base/progress.h"
 #include "robot/pose_scan.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 
 /// The scanned points of a task's x and y samples.
 struct PlaneScan {
@@ -37,4 +37,4 @@ struct PoseMap {
 };
 PoseMap pose_map(const Robot& robot, const PlaneScan& scan);
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

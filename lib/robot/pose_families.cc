@@ -5,7 +5,7 @@
 
 #include "base/units.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 namespace {
 
 constexpr double kSameAngle = 1e-4;  // rad
@@ -120,4 +120,4 @@ std::optional<FoundPose> flipped(const PoseScanner& scanner, const FoundPose& fo
   return other;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

@@ -5,7 +5,7 @@
 
 #include "robot/pose_scan.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 
 /// Poses that are as good as the best.
 struct PoseFamily {
@@ -41,4 +41,4 @@ std::optional<FoundPose> flipped(const PoseScanner& scanner, const FoundPose& fo
 /// True for poses nearer than 1e-4 rad in every joint that the symmetry does not leave free.
 bool same_pose(const FoundPose& a, const FoundPose& b, const Symmetry& symmetry);
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

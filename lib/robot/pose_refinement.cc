@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "base/units.h"
-#include "robot/constrained_maximum.h"
+#include "numerics/constrained_maximum.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 namespace {
 
 constexpr int kMostRestarts = 10;
@@ -54,19 +54,20 @@ class Refinement {
           {&PlanePoint::redundancy, open ? -100 : task_.redundancy.from, open ? 100 : task_.redundancy.to});
     }
     const auto n = static_cast<Eigen::Index>(free.size());
-    Variables first(n), lower(n), upper(n);
+    numerics::Variables first(n), lower(n), upper(n);
     for (Eigen::Index i = 0; i < n; ++i) {
       first[i] = start.*free[i].coordinate;
       lower[i] = free[i].lower;
       upper[i] = free[i].upper;
     }
-    const auto point = [&](const Variables& x) {
+    const auto point = [&](const numerics::Variables& x) {
       PlanePoint at = start;
       for (Eigen::Index i = 0; i < n; ++i) at.*free[i].coordinate = x[i];
       return at;
     };
-    const auto found = constrained_maximum([&](const Variables& x) { return value(point(x), power); }, first,
-                                           lower, upper, radius, kDifference);
+    const auto found =
+        numerics::constrained_maximum([&](const numerics::Variables& x) { return value(point(x), power); },
+                                      first, lower, upper, radius, kDifference);
     if (!found) return std::nullopt;
     PlanePoint at = point(found->point);
     if (task_.full_turn()) at.redundancy = std::remainder(at.redundancy, kTwoPi);
@@ -75,10 +76,10 @@ class Refinement {
     return FoundPose{at, evaluation->angles, evaluation->score};
   }
 
-  std::optional<ConstrainedValue> value(const PlanePoint& at, double power) const {
+  std::optional<numerics::ConstrainedValue> value(const PlanePoint& at, double power) const {
     const auto evaluation = scanner_.evaluate(at);
     if (!evaluation || !(evaluation->score > 0)) return std::nullopt;
-    ConstrainedValue result;
+    numerics::ConstrainedValue result;
     double logarithm = std::log(evaluation->score);
     if (power > 0) {
       const Eigen::Vector3d compliances = principal_compliances(evaluation->compliance);
@@ -110,4 +111,4 @@ std::optional<FoundPose> refined_pose(const PoseScanner& scanner, const PlanePoi
   return Refinement(scanner).from(start, radius);
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

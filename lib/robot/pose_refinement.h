@@ -5,7 +5,7 @@
 
 #include "robot/pose_scan.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 
 /// Scores that differ by no more than 1e-7 of their size are equal.
 bool equal_scores(double a, double b);
@@ -15,4 +15,4 @@ bool equal_scores(double a, double b);
 /// allowed point is found from there.
 std::optional<FoundPose> refined_pose(const PoseScanner& scanner, const PlanePoint& start, double radius);
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "base/statistics.h"
+#include "numerics/distributions.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 namespace {
 
 // d value(C) / d c_j by central differences; C is linear in the compliances.
@@ -77,7 +77,7 @@ double probability_better(const PoseReport& a, const PoseReport& b, const Stiffn
   const double lead = (a.score - b.score) * (task.larger_is_better() ? 1 : -1);
   const double spread = deviation(a.score_gradient - b.score_gradient, covariance);
   if (!(spread > 0)) return lead > 0 ? 1 : lead < 0 ? 0 : 0.5;
-  return normal_cdf(lead / spread);
+  return numerics::normal_cdf(lead / spread);
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

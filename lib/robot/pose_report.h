@@ -7,7 +7,7 @@
 #include "robot/compliance.h"
 #include "robot/joint_stiffness.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 
 struct PoseReport {
   JointAngles angles;
@@ -35,4 +35,4 @@ PoseReport report_pose(const Robot& robot, const JointAngles& angles, const Stif
 double probability_better(const PoseReport& a, const PoseReport& b, const StiffnessTask& task,
                           const Matrix6d& covariance);
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/units.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -222,4 +222,4 @@ std::optional<PoseScanner::Evaluation> PoseScanner::evaluate(const PlanePoint& a
   return evaluation;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

@@ -8,7 +8,7 @@
 #include "robot/inverse.h"
 #include "robot/pose_task.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 
 /// The best pose of a point, or of a point and one arm.
 struct ScanBest {
@@ -79,4 +79,4 @@ class PoseScanner {
   std::vector<Sample> samples_;
 };
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

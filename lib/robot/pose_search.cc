@@ -13,7 +13,7 @@
 #include "base/units.h"
 #include "robot/pose_refinement.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 namespace {
 
 constexpr double kLargestStep = 0.05;           // m, of the search's grid
@@ -248,4 +248,4 @@ PoseSearch search_poses(const Robot& robot, const PoseTask& task, int most_alter
   return result;
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

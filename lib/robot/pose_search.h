@@ -7,7 +7,7 @@
 #include "robot/plane_scan.h"
 #include "robot/pose_families.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 
 struct PoseSearch {
   FoundPose best;
@@ -24,4 +24,4 @@ struct PoseSearch {
 PoseSearch search_poses(const Robot& robot, const PoseTask& task, int most_alternatives, int threads,
                         const Progress& progress = {}, const PlaneScan* known = nullptr);
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/units.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 
 bool PoseTask::full_turn() const {
   constexpr double kLargestGap = 5 * kPi / 180;
@@ -33,4 +33,4 @@ PlaneReach plane_reach(const Robot& robot, const Plane& plane, const Eigen::Vect
   return {{x - across, x + across, 2}, {y - across, y + across, 2}};
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

@@ -7,7 +7,7 @@
 #include "robot/compliance.h"
 #include "robot/robot.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 
 /// A plane in the base frame (m): the point origin + u x_axis + v y_axis, axes of length 1 at right angles.
 struct Plane {
@@ -57,4 +57,4 @@ struct PlaneReach {
 };
 PlaneReach plane_reach(const Robot& robot, const Plane& plane, const Eigen::Vector3d& tool_axis);
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

@@ -6,7 +6,7 @@
 
 #include "base/units.h"
 
-namespace stablecut {
+namespace stablecut::robot {
 
 void Joint::set_alpha(double rad) {
   const auto exact = [](double value) {
@@ -38,4 +38,4 @@ ToolAlignment tool_alignment(const Robot& robot) {
           tool.linear().col(2).head<2>().norm() <= kTolerance};
 }
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string>
 
-namespace stablecut {
+namespace stablecut::robot {
 
 inline constexpr int kJoints = 6;
 
@@ -66,4 +66,4 @@ struct ToolAlignment {
 /// Within 1e-9 m and 1e-9 rad.
 ToolAlignment tool_alignment(const Robot& robot);
 
-}  // namespace stablecut
+}  // namespace stablecut::robot

@@ -19,7 +19,8 @@
 #endif
 
 using namespace stablecut;
-using namespace stablecut::fixtures;
+using namespace stablecut::robot;
+using namespace stablecut::robot::fixtures;
 
 namespace {
 

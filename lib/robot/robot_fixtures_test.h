@@ -7,7 +7,7 @@
 #include "robot/pose_task.h"
 #include "robot/robot.h"
 
-namespace stablecut::fixtures {
+namespace stablecut::robot::fixtures {
 
 /// The KUKA KR360 R2830 of Yi et al. with its 210 mm coaxial tool, as in testdata/kr360.json.
 inline Robot kr360() {
@@ -78,4 +78,4 @@ inline PoseTask tool_down(const Robot& robot, double height_m, StiffnessIndex in
   return task;
 }
 
-}  // namespace stablecut::fixtures
+}  // namespace stablecut::robot::fixtures

@@ -1,0 +1,398 @@
+#include "document/kinds/assembly_json.h"
+
+#include <initializer_list>
+#include <map>
+
+#include "base/error.h"
+#include "base/range.h"
+#include "base/units.h"
+#include "document/kinds/frf_json.h"
+#include "document/kinds/modal_table_json.h"
+#include "document/kinds/tool_joint_json.h"
+#include "document/measured/frf_import.h"
+#include "document/text/error.h"
+#include "document/text/node.h"
+
+namespace stablecut::document {
+namespace {
+
+constexpr int kMostLines = 10'000'000;
+constexpr Bound kPoisson{.least = 0, .most = 0.5, .words = "Poisson's ratio, from 0 to 0.5"};
+constexpr Bound kLossFactor{.least = 0, .most = 1, .words = "a loss factor from 0 to 1"};
+constexpr Bound kPosition{.least = 0, .words = "a distance from the tip, not below 0 mm"};
+constexpr int kMostFlutes = 40;
+constexpr double kFlutedDiameter = 0.8;  // of the cutter's, for bending (Kops and Vo, 1990)
+constexpr Bound kSize{.least = 0, .most = 1e6, .open_least = true, .words = "a size above 0 mm"};
+
+using Materials = std::map<std::string, receptance::BeamSegment>;  // segments without sizes
+
+Eigen::VectorXd frequencies_from(const Node& node) {
+  if (node.json().is_object()) {
+    node.check_names({"from", "to", "count"});
+    const Range range{node.at("from").number(kPositive), node.at("to").number(kPositive),
+                      node.at("count").integer(1, kMostLines)};
+    if (range.count == 1 ? range.from != range.to : !(range.from < range.to)) {
+      node.at("to").fail(range.count == 1 ? "expected the same number as from, since count is 1"
+                                          : "expected a number above from");
+    }
+    const std::vector<double> values = range.values();
+    return Eigen::Map<const Eigen::VectorXd>(values.data(), range.count);
+  }
+  const Eigen::VectorXd values = node.numbers(kPositive);
+  if (values.size() == 0) node.fail("expected at least one frequency");
+  for (Eigen::Index i = 1; i < values.size(); ++i) {
+    if (!(values[i] > values[i - 1]))
+      node.items()[static_cast<std::size_t>(i)].fail("expected increasing frequencies");
+  }
+  return values;
+}
+
+Materials materials_from(const Node& node) {
+  Materials materials;
+  if (!node.json().is_object()) node.fail("expected an object of materials by name");
+  for (const auto& [name, unused] : node.json().items()) {
+    const Node item = node.at(name);
+    item.check_names({"youngs_modulus_gpa", "density_kg_per_m3", "poisson_ratio", "loss_factor"});
+    receptance::BeamSegment& material = materials[name];
+    material.youngs_modulus_pa = item.at("youngs_modulus_gpa").number(kPositive) * 1e9;
+    material.density_kg_per_m3 = item.at("density_kg_per_m3").number(kPositive);
+    material.poisson_ratio = item.at("poisson_ratio").number(kPoisson);
+    material.loss_factor = item.at("loss_factor").number(kLossFactor);
+  }
+  return materials;
+}
+
+// A fluted length bends, and weighs, about as a round bar of its equivalent diameter.
+void take_flutes(const Node& item, receptance::BeamSegment& segment) {
+  const auto flutes = item.find("flutes"), equivalent = item.find("equivalent_diameter_mm");
+  if (flutes) flutes->integer(1, kMostFlutes);
+  if (flutes && !equivalent) segment.outer_diameter_m *= kFlutedDiameter;
+  if (equivalent) {
+    const double diameter = metres_from_mm(equivalent->number(kSize));
+    if (!(diameter <= segment.outer_diameter_m)) equivalent->fail("expected at most outer_diameter_mm");
+    segment.outer_diameter_m = diameter;
+  }
+  if (!(segment.inner_diameter_m < segment.outer_diameter_m)) {
+    item.at("inner_diameter_mm")
+        .fail("expected less than the equivalent diameter of the flutes, " +
+              std::to_string(mm_from_metres(segment.outer_diameter_m)) + " mm");
+  }
+}
+
+receptance::BeamChain segments_from(const Node& node, const Materials& materials) {
+  receptance::BeamChain segments;
+  for (const Node& item : node.items(1)) {
+    item.check_names({"length_mm", "outer_diameter_mm", "inner_diameter_mm", "material", "flutes",
+                      "equivalent_diameter_mm"});
+    const Node material = item.at("material");
+    const auto found = materials.find(material.text());
+    if (found == materials.end()) material.fail("expected one of /materials");
+    receptance::BeamSegment segment = found->second;
+    segment.length_m = metres_from_mm(item.at("length_mm").number(kSize));
+    segment.outer_diameter_m = metres_from_mm(item.at("outer_diameter_mm").number(kSize));
+    if (const auto inner = item.find("inner_diameter_mm")) {
+      segment.inner_diameter_m = metres_from_mm(inner->number(kNotNegative));
+      if (!(segment.inner_diameter_m < segment.outer_diameter_m))
+        inner->fail("expected less than outer_diameter_mm");
+    }
+    take_flutes(item, segment);
+    segments.push_back(segment);
+  }
+  return segments;
+}
+
+// ---- documents inside ----
+
+// A document of a file or one that stands here.
+struct Found {
+  Input input;
+  std::string pointer;
+};
+
+Found document_at(const Node& node, const DocumentLoader& load) {
+  if (const auto file = node.find("file")) return {load(file->text()), ""};
+  return {{node.source(), node.json()}, node.pointer()};
+}
+
+// One item of `receptances`: a document, or a file of a measurement with places for its entries.
+dynamics::FrequencyResponse responses_of(const Node& node, const DocumentLoader& load,
+                                         std::vector<std::string>& warnings) {
+  const Found found = document_at(node, load);
+  dynamics::FrequencyResponse frf;
+  if (found.input.document.is_null()) {
+    FrfChoice choice;
+    if (const auto name = node.find("quantity"))
+      choice.quantity = quantity_from_name(name->word({"receptance", "mobility", "accelerance"}));
+    if (const auto unit = node.find("unit")) {
+      choice.unit = frf_unit(unit->text());
+      if (!choice.unit) unit->fail("expected a unit of a response over a force, as um/N");
+    }
+    std::vector<std::string> remarks;
+    frf = import_frf(found.input, choice, remarks);
+    for (const std::string& remark : remarks) warnings.push_back(found.input.source.name + ": " + remark);
+  } else {
+    frf = frf_from_json(found.input.document, found.input.source, found.pointer);
+  }
+  if (!node.has("file")) return frf;
+  node.check_names({"file", "quantity", "unit", "response_position_mm", "reference_position_mm"});
+  for (auto& entry : frf.entries) {
+    if (const auto place = node.find("response_position_mm"))
+      entry.response_position_m = metres_from_mm(place->number(kPosition));
+    if (const auto place = node.find("reference_position_mm"))
+      entry.reference_position_m = metres_from_mm(place->number(kPosition));
+  }
+  return frf;
+}
+
+dynamics::FrequencyResponse receptances_from(const Node& node, const DocumentLoader& load,
+                                             std::vector<std::string>& warnings) {
+  if (!node.json().is_array()) return responses_of(node, load, warnings);
+  const auto items = node.items(1);
+  dynamics::FrequencyResponse all = responses_of(items[0], load, warnings);
+  for (std::size_t i = 1; i < items.size(); ++i) {
+    dynamics::FrequencyResponse more = responses_of(items[i], load, warnings);
+    if (more.quantity != all.quantity) items[i].fail("expected the quantity of the first of the list");
+    if (!dynamics::same_values(more.frequency_hz, all.frequency_hz))
+      items[i].fail("expected the lines of the first of the list");
+    for (auto& entry : more.entries) {
+      for (const auto& other : all.entries) {
+        if (!other.same_places(entry)) continue;
+        items[i].fail("has " + entry.response + entry.reference +
+                      " at places that the list has already: expected each once");
+      }
+      all.entries.push_back(std::move(entry));
+    }
+  }
+  return all;
+}
+
+// ---- holder and joint ----
+
+std::string list_of_lines(const std::vector<double>& lines, std::size_t all) {
+  return std::to_string(lines.size()) + " of " + std::to_string(all) + " lines (" +
+         short_number(lines.front()) + " to " + short_number(lines.back()) + " Hz)";
+}
+
+class AssemblyReader {
+ public:
+  AssemblyReader(const Node& root, const Eigen::VectorXd& frequency_hz, const DocumentLoader& load)
+      : root_(root), load_(load), materials_(materials_from(root.at("materials"))) {
+    assembly_.frequency_hz = frequency_hz;
+  }
+
+  AssemblyDocument read() {
+    const std::string theory = root_.at("beam_theory").word({"timoshenko", "euler-bernoulli"});
+    assembly_.theory = theory == "timoshenko" ? receptance::BeamTheory::kTimoshenko
+                                              : receptance::BeamTheory::kEulerBernoulli;
+    const Node tool = root_.at("tool");
+    tool.check_names({"segments"});
+    assembly_.tool = segments_from(tool.at("segments"), materials_);
+    if (const auto mass = root_.find("sensor_mass_g"))
+      assembly_.tip_mass_kg = 1e-3 * mass->number(kNotNegative);
+    in_each_direction(root_.at("holder"), [&](const Node& node, bool x, bool y) { read_holder(node, x, y); });
+    in_each_direction(root_.at("joint"), [&](const Node& node, bool x, bool y) {
+      std::optional<receptance::ToolJoint> joint;
+      if (node.json().is_string()) {
+        node.word({"rigid"});
+      } else {
+        node.check_names({"k1_n_per_m", "c1_n_s_per_m", "k2_n_m_per_rad", "c2_n_m_s_per_rad"});
+        joint = tool_joint_from(node);
+      }
+      if (x) assembly_.held[0].joint = joint;
+      if (y) assembly_.held[1].joint = joint;
+    });
+    return std::move(document_);
+  }
+
+ private:
+  // A value for both directions, or {"x": ..., "y": ...}.
+  template <typename Read>
+  void in_each_direction(const Node& node, const Read& read) {
+    if (!node.json().is_object() || !(node.has("x") || node.has("y"))) return read(node, true, true);
+    node.check_names({"x", "y"});
+    assembly_.axisymmetric = false;
+    read(node.at("x"), true, false);
+    read(node.at("y"), false, true);
+  }
+
+  static void forbid(const Node& node, std::initializer_list<const char*> names, const char* expected) {
+    for (const char* name : names) {
+      if (const auto found = node.find(name)) found->fail(expected);
+    }
+  }
+
+  void read_holder(const Node& node, bool x, bool y) {
+    receptance::HeldBy held;
+    std::optional<Node> given;
+    if (node.has("modal_table") || node.has("receptances")) {
+      forbid(node, {"segments", "end"},
+             "expected segments with an end that holds modal_table or receptances, or these alone");
+      given = node;
+    } else {
+      node.check_names({"segments", "end", "modal_table", "receptances"});
+      forbid(node, {"sensor_mass_g", "artefact"}, "expected this beside receptances");
+      held.segments = segments_from(node.at("segments"), materials_);
+      const Node end = node.at("end");
+      if (end.json().is_object()) {
+        given = end;
+      } else {
+        held.end = end.word({"fixed", "free"}) == "fixed" ? receptance::HolderEnd::kFixed
+                                                          : receptance::HolderEnd::kFree;
+      }
+    }
+    if (given) held.end = receptance::HolderEnd::kGiven;
+    if (x) assembly_.held[0] = held;
+    if (y) assembly_.held[1] = held;
+    if (given) take_given(*given, x, y);
+  }
+
+  void take_given(const Node& node, bool x, bool y) {
+    node.check_names({"modal_table", "receptances", "sensor_mass_g", "artefact"});
+    const bool modal = node.has("modal_table");
+    const Node content = node.at(modal ? "modal_table" : "receptances");
+    if (modal && node.has("receptances"))
+      node.at("receptances").fail("expected modal_table or receptances, not both");
+    if (modal) forbid(node, {"sensor_mass_g", "artefact"}, "expected this beside receptances");
+    const receptance::MeasuredHolder holder = modal ? of_modes(content) : of_taps(node, content);
+    auto& given = assembly_.given;
+    if (given.empty()) given.assign(holder.receptance.size(), receptance::Receptance<4>::Zero());
+    for (int d = 0; d < 2; ++d) {
+      if (!(d == 0 ? x : y)) continue;
+      int from = d;
+      if (!holder.quality[static_cast<std::size_t>(d)].measured) {
+        from = 1 - d;
+        document_.warnings.push_back(
+            place(content) + (d == 0 ? "xx is missing: x is taken as y" : "yy is missing: y is taken as x"));
+      } else if (x && y && d == 1 && holder.quality[0].measured) {
+        assembly_.axisymmetric = false;
+      }
+      for (std::size_t i = 0; i < given.size(); ++i)
+        given[i].block<2, 2>(2 * d, 2 * d) = holder.receptance[i].block<2, 2>(2 * from, 2 * from);
+      if (!modal)
+        document_.quality[static_cast<std::size_t>(d)] = holder.quality[static_cast<std::size_t>(from)];
+    }
+    if (x && y && holder.couples_directions) {
+      assembly_.couples_directions = true;
+      given = holder.receptance;
+    }
+    if (!modal) say_limits(content, holder, {x, y});
+  }
+
+  receptance::MeasuredHolder of_modes(const Node& content) {
+    const Found found = document_at(content, load_);
+    const dynamics::ModalModel model =
+        modal_table_from_json(found.input.document, found.input.source, found.pointer);
+    try {
+      return receptance::modal_holder(model, assembly_.frequency_hz);
+    } catch (const InvalidArgument& error) {
+      throw DataError(found.input.source.name, found.pointer + "/dofs", "", error.what());
+    }
+  }
+
+  receptance::MeasuredHolder of_taps(const Node& node, const Node& content) {
+    receptance::HolderMeasurement measurement{receptances_from(content, load_, document_.warnings), 0, {}};
+    if (const auto mass = node.find("sensor_mass_g"))
+      measurement.sensor_mass_kg = 1e-3 * mass->number(kNotNegative);
+    if (const auto artefact = node.find("artefact")) {
+      artefact->check_names({"segments"});
+      measurement.artefact = segments_from(artefact->at("segments"), materials_);
+    }
+    try {
+      return receptance::measured_holder(measurement, assembly_.theory, assembly_.frequency_hz);
+    } catch (const InvalidArgument& error) {
+      throw DataError(content.source().name, content.pointer(), "", error.what());
+    }
+  }
+
+  static std::string place(const Node& content) {
+    return content.source().name + ": " + content.pointer() + ": ";
+  }
+
+  // One line for each direction that deserves one.
+  void say_limits(const Node& content, const receptance::MeasuredHolder& holder,
+                  const std::array<bool, 2>& used) {
+    const std::size_t lines = holder.receptance.size();
+    for (std::size_t d = 0; d < 2; ++d) {
+      const receptance::HolderQuality& quality = holder.quality[d];
+      if (!quality.measured || !(used[d] || !holder.quality[1 - d].measured)) continue;
+      std::string text;
+      const auto add = [&](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
+      if (quality.slopes == receptance::SlopeSource::kFiniteDifference) {
+        add("slopes by a finite difference over " + short_number(mm_from_metres(quality.spacing_m)) +
+            " mm, good where the part bends little over it" +
+            (quality.second_difference ? "" : ", and moments to slopes as l n / h, exact for one mode only"));
+      }
+      if (!quality.noisy_hz.empty())
+        add("slopes below three deviations of their noise on " + list_of_lines(quality.noisy_hz, lines));
+      if (!quality.unphysical_hz.empty())
+        add("more than 5 % of it gives energy away (not passive) on " +
+            list_of_lines(quality.unphysical_hz, lines));
+      if (!text.empty()) document_.warnings.push_back(place(content) + (d == 0 ? "x: " : "y: ") + text);
+    }
+    if (holder.cross_left_out) {
+      document_.warnings.push_back(
+          place(content) +
+          "xy and yx are left out: expected both directions, and slopes or places for the entries "
+          "between them too (four pairs along an artefact)");
+    }
+  }
+
+  const Node& root_;
+  const DocumentLoader& load_;
+  Materials materials_;
+  AssemblyDocument document_;
+  receptance::Assembly& assembly_ = document_.assembly;
+};
+
+Node checked_root(const Json& document, const Source& source) {
+  const Node root = document_root(document, source, "assembly");
+  root.check_names({"format", "frequency_hz", "beam_theory", "materials", "tool", "holder", "joint",
+                    "sensor_mass_g", "provenance"});
+  return root;
+}
+
+Json band_of(const std::vector<double>& lines) {
+  Json band = {{"lines", lines.size()}};
+  if (!lines.empty()) band["band_hz"] = {lines.front(), lines.back()};
+  return band;
+}
+
+}  // namespace
+
+Eigen::VectorXd assembly_frequencies(const Json& document, const Source& source) {
+  return frequencies_from(checked_root(document, source).at("frequency_hz"));
+}
+
+AssemblyDocument assembly_from_json(const Json& document, const Source& source,
+                                    const Eigen::VectorXd& frequency_hz, const DocumentLoader& load) {
+  const Node root = checked_root(document, source);
+  return AssemblyReader(root, frequency_hz, load).read();
+}
+
+Json holder_quality_to_json(const AssemblyDocument& document) {
+  Json result;
+  for (std::size_t d = 0; d < 2; ++d) {
+    if (!document.quality[d]) continue;
+    const receptance::HolderQuality& quality = *document.quality[d];
+    Json item;
+    switch (quality.slopes) {
+      case receptance::SlopeSource::kMeasured:
+        item["slopes"] = "measured";
+        break;
+      case receptance::SlopeSource::kFiniteDifference:
+        item = {{"slopes", "finite difference"},
+                {"spacing_mm", mm_from_metres(quality.spacing_m)},
+                {"moment_to_slope", quality.second_difference ? "second difference" : "l n / h"}};
+        break;
+      case receptance::SlopeSource::kArtefact:
+        item["slopes"] = "artefact";
+        break;
+    }
+    item["below_noise"] = band_of(quality.noisy_hz);
+    item["not_passive"] = band_of(quality.unphysical_hz);
+    result[d == 0 ? "x" : "y"] = item;
+  }
+  return result;
+}
+
+}  // namespace stablecut::document

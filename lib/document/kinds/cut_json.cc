@@ -1,0 +1,128 @@
+#include "document/kinds/cut_json.h"
+
+#include <cmath>
+
+#include "base/units.h"
+#include "document/text/error.h"
+#include "document/text/node.h"
+
+namespace stablecut::document {
+namespace {
+
+constexpr int kMostTeeth = 1000;
+constexpr int kMostPoints = 1'000'000;
+constexpr double kSameDegrees = 1e-6;
+constexpr double kMostLag = 1e5;  // rad/m
+constexpr Bound kImmersion{
+    .least = 0, .most = 1, .open_least = true, .words = "a radial immersion ae/D above 0 and at most 1"};
+constexpr Bound kEngagementAngle{.least = 0, .most = 180, .words = "an angle from 0 to 180 degrees"};
+constexpr Bound kHelix{.least = -90,
+                       .most = 90,
+                       .open_least = true,
+                       .open_most = true,
+                       .words = "a helix angle between -90 and 90 degrees"};
+
+Range chart_range(const Node& node, const Bound& bound) {
+  node.check_names({"from", "to", "count"});
+  Range range{node.at("from").number(bound), node.at("to").number(bound), kDefaultChartCount};
+  if (const auto count = node.find("count"))
+    range.count = count->integer(1, kMostPoints);
+  else if (range.from == range.to)
+    range.count = 1;
+  if (range.count == 1 ? range.from != range.to : !(range.from < range.to)) {
+    node.at("to").fail(range.count == 1 ? "expected the same number as from, since count is 1"
+                                        : "expected a number above from");
+  }
+  return range;
+}
+
+void read_engagement(const Node& root, milling::Cutter& cutter) {
+  if (root.has("radial_immersion")) {
+    if (root.has("entry_deg") || root.has("exit_deg")) {
+      root.at("radial_immersion")
+          .fail("expected either radial_immersion with milling or entry_deg with exit_deg");
+    }
+    const bool up = root.at("milling").word({"up", "down"}) == "up";
+    milling::set_immersion(cutter, up, root.at("radial_immersion").number(kImmersion));
+    return;
+  }
+  if (!root.has("entry_deg") && !root.has("exit_deg")) root.at("radial_immersion");
+  if (const auto milling = root.find("milling")) milling->word({"up", "down"});
+  const double entry = root.at("entry_deg").number(kEngagementAngle);
+  const double exit = root.at("exit_deg").number(kEngagementAngle);
+  if (!(entry < exit)) root.at("exit_deg").fail("expected an angle above entry_deg");
+  cutter.entry_rad = radians_from_degrees(entry);
+  cutter.exit_rad = radians_from_degrees(exit);
+}
+
+// Pitches that are equal need no schedule for each tooth.
+void read_edges(const Node& root, milling::Cutter& cutter) {
+  if (const auto pitch = root.find("pitch_deg")) {
+    const Eigen::VectorXd angles = pitch->numbers(kPositive);
+    if (angles.size() != cutter.teeth)
+      pitch->fail("expected " + std::to_string(cutter.teeth) + " angles, one for each tooth");
+    if (std::abs(angles.sum() - 360) > kSameDegrees) pitch->fail("expected angles that sum to 360 degrees");
+    if ((angles.array() - 360.0 / cutter.teeth).abs().maxCoeff() > kSameDegrees) {
+      // Their sum must be one turn to the last digit.
+      for (const double angle : angles) cutter.pitch_rad.push_back(kTwoPi * angle / angles.sum());
+    }
+  }
+  if (const auto helix = root.find("helix_deg"); helix && helix->number(kHelix) != 0) {
+    if (!root.has("diameter_mm")) helix->fail("expected diameter_mm beside a helix angle");
+    cutter.lag_rad_per_m = 2 * std::tan(radians_from_degrees(helix->number(kHelix))) / cutter.diameter_m;
+    if (std::abs(cutter.lag_rad_per_m) > kMostLag)
+      helix->fail("expected an edge that turns by less than 100 rad in a mm of depth");
+  }
+}
+
+void read_process_damping(const Node& root, milling::Cutter& cutter) {
+  const auto damping = root.find("process_damping_n_per_m");
+  const auto friction = root.find("process_damping_friction");
+  if (damping) {
+    cutter.damping_n_per_m = damping->number(kNotNegative);
+    if (cutter.damping_n_per_m > 0 && !root.has("diameter_mm"))
+      damping->fail("expected diameter_mm beside process damping");
+  }
+  if (friction) {
+    if (!damping) friction->fail("expected process_damping_n_per_m beside it");
+    cutter.damping_friction = friction->number(kNotNegative);
+  }
+}
+
+}  // namespace
+
+CutDocument cut_from_json(const Json& document, const Source& source) {
+  const Node root = document_root(document, source, "cut");
+  root.check_names({"format", "teeth", "kt_n_per_mm2", "kr_n_per_mm2", "milling", "radial_immersion",
+                    "entry_deg", "exit_deg", "feed_angle_deg", "pitch_deg", "helix_deg", "diameter_mm",
+                    "chart", "provenance", "feed_per_tooth_mm", "process_damping_n_per_m",
+                    "process_damping_friction", "kt_std_n_per_mm2", "kr_std_n_per_mm2"});
+  CutDocument cut;
+  cut.cutter.teeth = root.at("teeth").integer(1, kMostTeeth);
+  cut.cutter.kt_n_per_m2 = n_per_m2_from_n_per_mm2(root.at("kt_n_per_mm2").number(kPositive));
+  cut.cutter.kr_n_per_m2 = n_per_m2_from_n_per_mm2(root.at("kr_n_per_mm2").number(kNotNegative));
+  read_engagement(root, cut.cutter);
+  if (const auto feed = root.find("feed_angle_deg")) {
+    cut.cutter.feed_angle_rad = radians_from_degrees(feed->number());
+  }
+  if (const auto diameter = root.find("diameter_mm"))
+    cut.cutter.diameter_m = metres_from_mm(diameter->number(kPositive));
+  read_edges(root, cut.cutter);
+  read_process_damping(root, cut.cutter);
+  if (const auto feed = root.find("feed_per_tooth_mm")) {
+    cut.feed_per_tooth_m = metres_from_mm(feed->number(kPositive));
+    if (!root.has("diameter_mm")) feed->fail("expected diameter_mm beside it");
+  }
+  if (const auto kt = root.find("kt_std_n_per_mm2"))
+    cut.deviations.kt_n_per_m2 = n_per_m2_from_n_per_mm2(kt->number(kNotNegative));
+  if (const auto kr = root.find("kr_std_n_per_mm2"))
+    cut.deviations.kr_n_per_m2 = n_per_m2_from_n_per_mm2(kr->number(kNotNegative));
+  if (const auto chart = root.find("chart")) {
+    chart->check_names({"speed_rpm", "depth_mm"});
+    if (const auto speed = chart->find("speed_rpm")) cut.speed_rpm = chart_range(*speed, kPositive);
+    if (const auto depth = chart->find("depth_mm")) cut.depth_mm = chart_range(*depth, kNotNegative);
+  }
+  return cut;
+}
+
+}  // namespace stablecut::document

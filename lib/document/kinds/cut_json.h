@@ -1,0 +1,27 @@
+// Kind `cut`: cutter, cutting coefficients, engagement, and the chart to draw.
+#pragma once
+
+#include <optional>
+
+#include "base/range.h"
+#include "document/text/json_text.h"
+#include "milling/cutter.h"
+#include "milling/sampled_stability.h"
+
+namespace stablecut::document {
+
+struct CutDocument {
+  milling::Cutter cutter;
+  std::optional<double> feed_per_tooth_m;  ///< with a diameter
+  milling::CoefficientDeviations deviations;
+  std::optional<Range> speed_rpm;  ///< of the chart
+  std::optional<Range> depth_mm;   ///< of the chart
+};
+
+/// Points along an axis of the chart when nothing says how many.
+inline constexpr int kDefaultChartCount = 64;
+
+/// Throws DataError.
+CutDocument cut_from_json(const Json& document, const Source& source);
+
+}  // namespace stablecut::document

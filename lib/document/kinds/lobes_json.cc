@@ -1,0 +1,276 @@
+#include "document/kinds/lobes_json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "base/units.h"
+#include "document/text/error.h"
+#include "document/text/node.h"
+
+namespace stablecut::document {
+namespace {
+
+const std::map<milling::Instability, const char*> kNames = {{milling::Instability::kHopf, "hopf"},
+                                                            {milling::Instability::kFlip, "flip"},
+                                                            {milling::Instability::kFold, "fold"}};
+
+// How the cut chatters at a crossing.
+void describe(Json& item, const milling::StabilityCrossing& crossing) {
+  item["depth_mm"] = mm_from_metres(crossing.depth_m);
+  item["chatter_frequency_hz"] = crossing.chatter_frequency_hz;
+  item["kind"] = kNames.at(crossing.kind);
+  item["lobe"] = crossing.lobe;
+  item["mode"] = crossing.mode + 1;
+  item["participation"] = crossing.participation;
+}
+
+Json limit_to_json(const std::vector<double>& speed_rpm,
+                   const std::vector<std::vector<milling::StabilityCrossing>>& crossings) {
+  Json list = Json::array();
+  for (std::size_t s = 0; s < speed_rpm.size(); ++s) {
+    Json item = {{"speed_rpm", speed_rpm[s]}, {"depth_mm", nullptr}};
+    if (const milling::StabilityCrossing* limit = milling::limit_of(crossings[s])) describe(item, *limit);
+    list.push_back(std::move(item));
+  }
+  return list;
+}
+
+Json crossings_to_json(const std::vector<double>& speed_rpm,
+                       const std::vector<std::vector<milling::StabilityCrossing>>& crossings) {
+  Json list = Json::array();
+  for (std::size_t s = 0; s < speed_rpm.size(); ++s) {
+    for (const milling::StabilityCrossing& crossing : crossings[s]) {
+      Json item = {{"speed_rpm", speed_rpm[s]}};
+      describe(item, crossing);
+      item["above"] = crossing.unstable_above ? "unstable" : "stable";
+      list.push_back(std::move(item));
+    }
+  }
+  return list;
+}
+
+// The length that is written as so many millimetres: rounding may make it a neighbour of their thousandth.
+double metres_written_as(double mm) {
+  const double nearest = metres_from_mm(mm);
+  for (const double towards : {0.0, 2 * nearest}) {
+    double metres = nearest;
+    for (int step = 0; step < 3; ++step) {
+      if (mm_from_metres(metres) == mm) return metres;
+      metres = std::nextafter(metres, towards);
+    }
+  }
+  return nearest;
+}
+
+milling::StabilityCrossing crossing_from(const Node& item) {
+  milling::StabilityCrossing crossing;
+  crossing.depth_m = metres_written_as(item.at("depth_mm").number(kNotNegative));
+  crossing.unstable_above = item.at("above").word({"unstable", "stable"}) == "unstable";
+  const std::string kind = item.at("kind").word({"hopf", "flip", "fold"});
+  for (const auto& [value, name] : kNames) {
+    if (kind == name) crossing.kind = value;
+  }
+  crossing.chatter_frequency_hz = item.at("chatter_frequency_hz").number(kNotNegative);
+  crossing.lobe = item.at("lobe").integer(0, std::numeric_limits<int>::max());
+  crossing.mode = static_cast<std::size_t>(item.at("mode").integer(1, std::numeric_limits<int>::max()) - 1);
+  crossing.participation = item.at("participation").number();
+  return crossing;
+}
+
+Json rows_to_json(const Eigen::MatrixXd& matrix) {
+  Json rows = Json::array();
+  for (const auto& row : matrix.rowwise()) rows.push_back(std::vector<double>(row.begin(), row.end()));
+  return rows;
+}
+
+Json point_to_json(const JudgedCut& point) {
+  const bool stable = is_stable(point.spectral_radius);
+  Json item = {{"depth_mm", point.cut.depth_mm},
+               {"speed_rpm", point.cut.speed_rpm},
+               {"spectral_radius", point.spectral_radius},
+               {"stable", stable}};
+  if (point.cut.observed_stable) {
+    item["observed"] = *point.cut.observed_stable ? "stable" : "chatter";
+    item["agrees"] = *point.cut.observed_stable == stable;
+  }
+  return item;
+}
+
+Json optional_mm(const std::optional<double>& metres) {
+  return metres ? Json(mm_from_metres(*metres)) : Json(nullptr);
+}
+
+Json what_to_run_to_json(const WhatToRun& what) {
+  Json document = {{"depth_margin", what.limits.depth_share}, {"speed_margin", what.limits.speed_share}};
+  document["unconditional"] = {{"depth_mm", nullptr}};
+  if (what.unconditional) {
+    document["unconditional"] = {
+        {"depth_mm", mm_from_metres(*what.unconditional->depth_m)},
+        {"speed_rpm", rpm_from_revolutions_per_s(what.unconditional->revolutions_per_s)}};
+  }
+  document["best"] = Json::array();
+  for (std::size_t i = 0; i < what.best.size(); ++i) {
+    const milling::OperatingPoint& point = what.best[i];
+    const milling::OperatingPoint& first = what.best.front();
+    Json item = {{"speed_rpm", rpm_from_revolutions_per_s(point.revolutions_per_s)},
+                 {"depth_mm", mm_from_metres(point.depth_m)},
+                 {"limit_mm", optional_mm(point.limit_m)},
+                 {"slowest_rpm", rpm_from_revolutions_per_s(point.slowest)},
+                 {"fastest_rpm", rpm_from_revolutions_per_s(point.fastest)},
+                 {"removal_of_best",
+                  point.depth_m * point.revolutions_per_s / (first.depth_m * first.revolutions_per_s)}};
+    if (!what.rates.empty()) {
+      item["removal_cm3_per_min"] = cm3_per_min_from_m3_per_s(what.rates[i].removal_m3_per_s);
+      item["power_w"] = what.rates[i].power_w;
+      item["torque_n_m"] = what.rates[i].torque_n_m;
+    }
+    document["best"].push_back(std::move(item));
+  }
+  return document;
+}
+
+// Grids [depth][speed] of a part into every Nth column.
+void read_columns(const Node& rows, const Shard& shard, Eigen::MatrixXd& grid) {
+  const auto items = rows.items();
+  if (static_cast<Eigen::Index>(items.size()) != grid.rows())
+    rows.fail("expected " + std::to_string(grid.rows()) + " rows, one for each depth");
+  for (Eigen::Index d = 0; d < grid.rows(); ++d) {
+    const Eigen::VectorXd row = items[static_cast<std::size_t>(d)].numbers(kNotNegative);
+    Eigen::Index column = shard.index - 1;
+    for (Eigen::Index s = 0; s < row.size(); ++s, column += shard.count) {
+      if (column < grid.cols()) grid(d, column) = row[s];
+    }
+    if (column - shard.count >= grid.cols() || column < grid.cols())
+      items[static_cast<std::size_t>(d)].fail("expected a number for each speed");
+  }
+}
+
+}  // namespace
+
+double as_written(double metres) { return metres_written_as(mm_from_metres(metres)); }
+
+Json lobes_to_json(const LobesDocument& lobes) {
+  const milling::StabilityChart& chart = lobes.chart;
+  const bool spectral = lobes.scheme.method == milling::StabilityMethod::kSpectral;
+  double error = lobes.points_error;
+  for (const double of_speed : chart.error) error = std::max(error, of_speed);
+  Json document = {{"format", "stablecut/lobes/1"},
+                   {"cut", lobes.cut},
+                   {"method", spectral ? "spectral" : "sdm"},
+                   {"convergence", error}};
+  if (spectral) {
+    const auto [least, largest] = std::minmax_element(chart.resolution.begin(), chart.resolution.end());
+    document["points_per_arc"] = {{"least", *least}, {"largest", *largest}};
+  } else {
+    document["intervals"] = lobes.scheme.intervals;
+  }
+  if (lobes.shard) {
+    document["shard"] = {
+        {"index", lobes.shard->index}, {"count", lobes.shard->count}, {"of", lobes.shard->of}};
+    document["resolution"] = chart.resolution;
+  }
+  document["speed_rpm"] = lobes.speed_rpm;
+  document["depth_mm"] = lobes.depth_mm;
+  if (chart.spectral_radius.size() > 0) document["spectral_radius"] = rows_to_json(chart.spectral_radius);
+  document["limit"] = limit_to_json(lobes.speed_rpm, chart.crossings);
+  document["crossings"] = crossings_to_json(lobes.speed_rpm, chart.crossings);
+  if (lobes.sampled) {
+    document["samples"] = lobes.samples;
+    if (lobes.sampled->stable_share.size() > 0)
+      document["probability_stable"] = rows_to_json(lobes.sampled->stable_share);
+    for (std::size_t s = 0; s < lobes.speed_rpm.size(); ++s) {
+      const auto& interval = lobes.sampled->limit_95_m[s];
+      document["limit"][s]["interval_95_mm"] = {optional_mm(interval[0]), optional_mm(interval[1])};
+    }
+  }
+  if (lobes.what_to_run) document["what_to_run"] = what_to_run_to_json(*lobes.what_to_run);
+  if (!lobes.per_mode.empty()) {
+    Json list = Json::array();
+    for (const ModeLimit& mode : lobes.per_mode) {
+      list.push_back({{"mode", mode.mode}, {"limit", limit_to_json(lobes.speed_rpm, mode.crossings)}});
+    }
+    document["per_mode"] = std::move(list);
+  }
+  if (!lobes.points.empty()) {
+    Json list = Json::array();
+    for (const JudgedCut& point : lobes.points) list.push_back(point_to_json(point));
+    document["points"] = std::move(list);
+  }
+  return document;
+}
+
+void merge_parts(LobesDocument& whole, bool with_grid, const Json& whole_of,
+                 const std::vector<Input>& parts) {
+  const std::size_t speeds = whole.speed_rpm.size();
+  const auto count = static_cast<int>(parts.size());
+  const auto columns = static_cast<Eigen::Index>(speeds);
+  const auto depths = static_cast<Eigen::Index>(whole.depth_mm.size());
+  milling::StabilityChart& chart = whole.chart;
+  if (with_grid) chart.spectral_radius.resize(depths, columns);
+  chart.crossings.assign(speeds, {});
+  chart.error.assign(speeds, 0.0);
+  chart.resolution.assign(speeds, 0);
+  if (whole.samples > 0) {
+    whole.sampled.emplace();
+    if (with_grid) whole.sampled->stable_share.resize(depths, columns);
+    whole.sampled->limit_95_m.resize(speeds);
+  }
+  // What must be alike, as a document says it.
+  const bool spectral = whole.scheme.method == milling::StabilityMethod::kSpectral;
+  std::vector<bool> seen(parts.size(), false);
+  for (const Input& part : parts) {
+    const Node root = document_root(part.document, part.source, "lobes");
+    const Node of = root.at("shard");
+    if (of.at("count").json() != count)
+      of.at("count").fail("expected " + std::to_string(count) + ", the number of parts given");
+    const Shard shard{of.at("index").integer(1, count), count, {}};
+    if (of.at("of").json() != whole_of) of.at("of").fail("expected the inputs and options of this run");
+    if (seen[static_cast<std::size_t>(shard.index - 1)]) of.at("index").fail("expected each part once");
+    seen[static_cast<std::size_t>(shard.index - 1)] = true;
+    if (root.at("cut").json() != whole.cut) root.at("cut").fail("expected the cut and chart of this run");
+    if (root.at("method").text() != (spectral ? "spectral" : "sdm") ||
+        (!spectral && root.at("intervals").json() != whole.scheme.intervals)) {
+      root.at("method").fail("expected the method of this run");
+    }
+    const std::vector<double> own = shard.part_of(whole.speed_rpm);
+    if (root.at("speed_rpm").json() != Json(own)) root.at("speed_rpm").fail("expected this part's speeds");
+    if (root.at("depth_mm").json() != Json(whole.depth_mm))
+      root.at("depth_mm").fail("expected the depths of this run");
+    // The whole document's place where what should be there is not.
+    const auto member = [&](const char* name) { return root.has(name) ? root.at(name) : root; };
+    if ((root.has("samples") ? root.at("samples").json() : Json(0)) != whole.samples)
+      member("samples").fail("expected --samples of this run");
+    if (root.has("spectral_radius") != with_grid)
+      member("spectral_radius").fail("expected a grid as in this run");
+
+    const auto column = [&](std::size_t s) {
+      return s * static_cast<std::size_t>(count) + static_cast<std::size_t>(shard.index - 1);
+    };
+    if (with_grid) read_columns(root.at("spectral_radius"), shard, chart.spectral_radius);
+    if (with_grid && whole.sampled)
+      read_columns(root.at("probability_stable"), shard, whole.sampled->stable_share);
+    const Eigen::VectorXd resolution = root.at("resolution").numbers(kPositive);
+    const auto limits = root.at("limit").items();
+    if (resolution.size() != static_cast<Eigen::Index>(own.size()) || limits.size() != own.size())
+      root.at("limit").fail("expected an entry for each speed");
+    for (std::size_t s = 0; s < own.size(); ++s) {
+      chart.error[column(s)] = root.at("convergence").number(kNotNegative);
+      chart.resolution[column(s)] = static_cast<int>(resolution[static_cast<Eigen::Index>(s)]);
+      if (!whole.sampled) continue;
+      const auto interval = limits[s].at("interval_95_mm").items(2);
+      for (std::size_t end = 0; end < 2; ++end) {
+        if (!interval[end].is_null())
+          whole.sampled->limit_95_m[column(s)][end] = metres_written_as(interval[end].number());
+      }
+    }
+    for (const Node& item : root.at("crossings").items()) {
+      const auto at = std::find(own.begin(), own.end(), item.at("speed_rpm").number());
+      if (at == own.end()) item.at("speed_rpm").fail("expected one of this part's speeds");
+      chart.crossings[column(static_cast<std::size_t>(at - own.begin()))].push_back(crossing_from(item));
+    }
+  }
+}
+
+}  // namespace stablecut::document

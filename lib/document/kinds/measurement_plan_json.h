@@ -1,0 +1,23 @@
+// Kind `measurement-plan`: the poses and loads to measure.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "document/text/json_text.h"
+#include "robot/joint_stiffness.h"
+#include "robot/measurement_plan.h"
+
+namespace stablecut::document {
+
+struct PlanDocument {
+  robot::MeasurementPlan plan;
+  std::vector<robot::LoadSample> candidates;
+  std::vector<int> pose;                          ///< of each candidate, 0-based in the pose list
+  std::optional<robot::JointStiffness> expected;  ///< for deviations of the stiffness
+};
+
+/// The document without provenance.
+Json plan_to_json(const PlanDocument& document, const robot::Robot& robot);
+
+}  // namespace stablecut::document

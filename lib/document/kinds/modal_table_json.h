@@ -1,0 +1,18 @@
+// Kind `modal-table`: non-symmetric complex modes at the tool tip.
+#pragma once
+
+#include "document/text/json_text.h"
+#include "dynamics/modal_model.h"
+
+namespace stablecut::document {
+
+/// Reads the modes in any scale, from the document that stands at `pointer` in its source; a dof with a sign
+/// ("-x") turns its components and loses it. Throws DataError.
+dynamics::ModalModel modal_table_from_json(const Json& document, const Source& source,
+                                           const std::string& pointer = "");
+
+/// The document without provenance, modes as given: in the contract's normalisation when they are. Of `fit`
+/// the covariance, if known.
+Json modal_table_to_json(const dynamics::ModalModel& model);
+
+}  // namespace stablecut::document

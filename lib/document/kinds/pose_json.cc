@@ -1,0 +1,191 @@
+#include "document/kinds/pose_json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/units.h"
+#include "document/kinds/joints_json.h"
+
+namespace stablecut::document {
+namespace {
+
+double in_score_unit(double score, robot::StiffnessIndex index) {
+  return index == robot::StiffnessIndex::kDeflection ? score * 1e6 : score;
+}
+
+// The index's name and the unit of its score.
+Json index_to_json(robot::StiffnessIndex index) {
+  switch (index) {
+    case robot::StiffnessIndex::kCombined:
+      return {{"name", "combined"}, {"unit", "N/m"}};
+    case robot::StiffnessIndex::kWeakest:
+      return {{"name", "weakest"}, {"unit", "N/m"}};
+    case robot::StiffnessIndex::kAxial:
+      return {{"name", "axial"}, {"unit", "N/m"}};
+    case robot::StiffnessIndex::kDeflection:
+      break;
+  }
+  return {{"name", "deflection"}, {"unit", "um"}};
+}
+
+Json to_json(const Eigen::Vector3d& v) { return Json::array({v[0], v[1], v[2]}); }
+
+Json to_json(const robot::PoseReport& report, const robot::StiffnessTask& task) {
+  Json pose = {{"joints_deg", joint_angles_to_json(report.angles)},
+               {"tcp_mm", to_json(report.tool.translation() * 1e3)},
+               {"redundancy_deg", document_degrees(report.redundancy_rad)},
+               {"score", number_or_null(in_score_unit(report.score, task.index))}};
+  if (report.score_std) pose["score_std"] = in_score_unit(*report.score_std, task.index);
+  Json principal = Json::array();
+  for (const double compliance : report.principal_compliance) {
+    principal.push_back(compliance > 0 ? Json(1 / compliance) : Json(nullptr));
+  }
+  pose["principal_stiffness_n_per_m"] = std::move(principal);
+  Json directional = Json::array();
+  for (const double stiffness : report.directional_stiffness)
+    directional.push_back(number_or_null(stiffness));
+  pose["stiffness_n_per_m"] = std::move(directional);
+  pose["deflection_um"] = nullptr;  // without a force
+  if (report.deflection_m) {
+    pose["deflection_um"] = report.deflection_m->norm() * 1e6;
+    if (report.deflection_std_m) pose["deflection_std_um"] = *report.deflection_std_m * 1e6;
+    pose["displacement_um"] = to_json(*report.deflection_m * 1e6);
+  }
+  pose["limit_margin_deg"] = document_degrees(report.limit_margin_rad);
+  pose["singularity_margin"] = report.singularity_margin;
+  return pose;
+}
+
+Json family_to_json(const robot::PoseFamily& family, const robot::Robot& robot) {
+  const auto interval = [&](const char* kind, int joint) {
+    return Json{{"kind", kind},
+                {"joint", robot.joints[static_cast<std::size_t>(joint)].name},
+                {"from_deg", document_degrees(family.from_rad)},
+                {"to_deg", document_degrees(family.to_rad)}};
+  };
+  switch (family.kind) {
+    case robot::PoseFamily::Kind::kBaseTurn:
+      return interval("base-turn", 0);
+    case robot::PoseFamily::Kind::kToolTurn:
+      return interval("tool-turn", 5);
+    case robot::PoseFamily::Kind::kFlippedWrist:
+      return {{"kind", "flipped-wrist"}, {"joints_deg", joint_angles_to_json(family.angles)}};
+    case robot::PoseFamily::Kind::kEqual:
+      break;
+  }
+  return {{"kind", "equal"}, {"joints_deg", joint_angles_to_json(family.angles)}};
+}
+
+void add_plane(Json& document, const PlaneDocument& plane) {
+  if (plane.height_mm) {
+    document["height_mm"] = *plane.height_mm;
+  } else {
+    document["plane"] = {{"origin_mm", to_json(plane.plane.origin * 1e3)},
+                         {"x_axis", to_json(plane.plane.x_axis)},
+                         {"y_axis", to_json(plane.plane.y_axis)}};
+  }
+}
+
+template <typename Value>
+Json rows_of(Eigen::Index rows, Eigen::Index columns, const Value& value) {
+  Json result = Json::array();
+  for (Eigen::Index j = 0; j < rows; ++j) {
+    Json row = Json::array();
+    for (Eigen::Index i = 0; i < columns; ++i) row.push_back(value(j, i));
+    result.push_back(std::move(row));
+  }
+  return result;
+}
+
+Json samples_of(const Range& range) {
+  Json list = Json::array();
+  for (int i = 0; i < range.count; ++i) list.push_back(mm_from_metres(range.at(i)));
+  return list;
+}
+
+}  // namespace
+
+Json pose_to_json(const PoseDocument& document, const robot::Robot& robot) {
+  Json result = {{"format", "stablecut/pose/1"}, {"index", index_to_json(document.task.index)}};
+  add_plane(result, document.plane);
+  const auto one = [&](const robot::PoseReport& report, const robot::FoundPose& found) {
+    Json pose = to_json(report, document.task);
+    pose["branch"] = found.at.branch;
+    return pose;
+  };
+  result["best"] = one(document.reports.front(), document.search.best);
+  Json alternatives = Json::array();
+  for (std::size_t i = 0; i < document.search.alternatives.size(); ++i) {
+    alternatives.push_back(one(document.reports[i + 1], document.search.alternatives[i]));
+    if (document.covariance) {
+      alternatives.back()["probability_better"] = robot::probability_better(
+          document.reports[i + 1], document.reports.front(), document.task, *document.covariance);
+    }
+  }
+  result["alternatives"] = std::move(alternatives);
+  Json families = Json::array();
+  for (const robot::PoseFamily& family : document.search.families)
+    families.push_back(family_to_json(family, robot));
+  result["families"] = std::move(families);
+  result["redundancy_matters"] = document.search.redundancy_matters;
+  Json angles = Json::array(), scores = Json::array();
+  for (std::size_t i = 0; i < document.sweep.redundancy_rad.size(); ++i) {
+    angles.push_back(document_degrees(document.sweep.redundancy_rad[i]));
+    const auto& score = document.sweep.score[i];
+    scores.push_back(score ? Json(in_score_unit(*score, document.task.index)) : Json(nullptr));
+  }
+  result["redundancy_sweep"] = {{"redundancy_deg", std::move(angles)}, {"score", std::move(scores)}};
+  return result;
+}
+
+Json evaluation_to_json(const PoseDocument& document) {
+  const auto& poses = document.evaluated;
+  std::vector<std::size_t> order(poses.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    if (std::isnan(poses[a].score) || std::isnan(poses[b].score))
+      return !std::isnan(poses[a].score) && std::isnan(poses[b].score);
+    return document.task.larger_is_better() ? poses[a].score > poses[b].score
+                                            : poses[a].score < poses[b].score;
+  });
+  std::vector<int> rank(poses.size());
+  for (std::size_t i = 0; i < order.size(); ++i) rank[order[i]] = static_cast<int>(i) + 1;
+  Json evaluated = Json::array();
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    Json pose = to_json(poses[i], document.task);
+    pose["rank"] = rank[i];
+    if (document.covariance && i != order.front() && std::isfinite(poses[i].score)) {
+      pose["probability_better"] =
+          robot::probability_better(poses[i], poses[order.front()], document.task, *document.covariance);
+    }
+    evaluated.push_back(std::move(pose));
+  }
+  return {{"format", "stablecut/pose/1"},
+          {"index", index_to_json(document.task.index)},
+          {"evaluated", std::move(evaluated)}};
+}
+
+Json pose_map_to_json(const robot::PoseMap& map, const robot::PoseTask& task, const PlaneDocument& plane) {
+  Json result = {{"format", "stablecut/pose-map/1"}, {"index", index_to_json(task.stiffness.index)}};
+  add_plane(result, plane);
+  result["x_mm"] = samples_of(task.x);
+  result["y_mm"] = samples_of(task.y);
+  const auto rows = map.score.rows(), columns = map.score.cols();
+  const auto number = [&](const Eigen::MatrixXd& values, double factor) {
+    return rows_of(rows, columns, [&](auto j, auto i) { return number_or_null(values(j, i) * factor); });
+  };
+  result["score"] = number(map.score, in_score_unit(1, task.stiffness.index));
+  result["redundancy_deg"] = rows_of(rows, columns, [&](auto j, auto i) {
+    return number_or_null(document_degrees(map.redundancy_rad(j, i)));
+  });
+  result["branch"] = rows_of(rows, columns, [&](auto j, auto i) {
+    return map.branch(j, i) < 0 ? Json(nullptr) : Json(map.branch(j, i));
+  });
+  result["stiffness_x_n_per_m"] = number(map.stiffness[0], 1);
+  result["stiffness_y_n_per_m"] = number(map.stiffness[1], 1);
+  result["stiffness_z_n_per_m"] = number(map.stiffness[2], 1);
+  return result;
+}
+
+}  // namespace stablecut::document

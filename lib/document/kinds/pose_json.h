@@ -1,0 +1,36 @@
+// Kinds `pose` and `pose-map`: what a pose search or an evaluation found.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "document/text/json_text.h"
+#include "robot/pose_report.h"
+#include "robot/pose_search.h"
+
+namespace stablecut::document {
+
+/// The plane as the user gave it.
+struct PlaneDocument {
+  std::optional<double> height_mm;
+  robot::Plane plane;  ///< where no height was given
+};
+
+struct PoseDocument {
+  robot::StiffnessTask task;
+  std::optional<robot::Matrix6d> covariance;
+  // A search.
+  PlaneDocument plane;
+  robot::PoseSearch search;
+  std::vector<robot::PoseReport> reports;  ///< best, then the alternatives
+  robot::RedundancySweep sweep;            ///< at the best point
+  // An evaluation.
+  std::vector<robot::PoseReport> evaluated;
+};
+
+/// The documents without provenance.
+Json pose_to_json(const PoseDocument& document, const robot::Robot& robot);
+Json evaluation_to_json(const PoseDocument& document);
+Json pose_map_to_json(const robot::PoseMap& map, const robot::PoseTask& task, const PlaneDocument& plane);
+
+}  // namespace stablecut::document

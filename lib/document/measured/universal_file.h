@@ -1,0 +1,64 @@
+// Universal files (SDRC I-DEAS): dataset 58, functions at nodal degrees of freedom, in text and in binary
+// (58b), and dataset 164, units. Other datasets are passed over.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "document/text/json_text.h"
+
+namespace stablecut::document {
+
+/// Records before the values.
+inline constexpr int kUniversalHeaderRecords = 11;
+
+/// Records 8 to 11: what an axis holds.
+struct UniversalAxis {
+  int data_type = 0;  ///< 0 unknown, 1 general, 8 displacement, 11 velocity, 12 acceleration, 13 force, 17
+                      ///< time, 18 frequency, ...
+  std::string label;  ///< `NONE` and blanks are empty
+  std::string unit;   ///< likewise
+};
+
+/// A node and a direction: 0 none, 1 to 3 along x, y, z, 4 to 6 about them, negative against them.
+struct UniversalPlace {
+  std::string entity;
+  int node = 0;
+  int direction = 0;
+};
+
+/// Dataset 164: numbers in the file over these factors are in SI.
+struct UniversalUnits {
+  double length_factor = 1;
+  double force_factor = 1;
+};
+
+/// One dataset 58.
+struct UniversalFunction {
+  int number = 0;  ///< 1-based among the file's functions
+  long line = 0;   ///< of record 1; record r (up to 11) is on line + r - 1
+  std::array<std::string, 5> id;
+  int type = 0;  ///< 1 time response, 2 auto spectrum, 4 frequency response, 6 coherence, ...
+  UniversalPlace response, reference;
+  bool is_complex = false;
+  Eigen::VectorXd abscissa;  ///< [values] as written
+  Eigen::VectorXcd values;   ///< [values] as written; not a number where the file says so
+  UniversalAxis abscissa_axis, ordinate, denominator;
+  std::optional<UniversalUnits> units;  ///< the last dataset 164 before it, else the first behind it
+
+  /// `line 6 (function 1, record 5)`.
+  std::string place(int record) const;
+};
+
+/// The functions of the file, in its order. Throws DataError with line, function and record for what cannot
+/// be read, and for a file without a dataset 58.
+std::vector<UniversalFunction> read_universal_file(const Source& source);
+
+/// True for a text that has a line -1 near its beginning, and a dataset's number below it.
+bool looks_like_universal_file(std::string_view text);
+
+}  // namespace stablecut::document

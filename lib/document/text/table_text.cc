@@ -1,0 +1,138 @@
+#include "document/text/table_text.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "base/range.h"
+#include "document/text/error.h"
+#include "document/text/plain_text.h"
+
+namespace stablecut::document {
+namespace {
+
+std::string_view unquoted(std::string_view field) {
+  field = trimmed(field);
+  if (field.size() >= 2 && field.front() == '"' && field.back() == '"')
+    field = field.substr(1, field.size() - 2);
+  return field;
+}
+
+std::vector<std::string> fields_of(std::string_view line, char separator) {
+  std::vector<std::string> fields;
+  if (separator == ' ') {
+    while (!(line = trimmed(line)).empty()) {
+      const auto end = line.find_first_of(kBlanks);
+      fields.emplace_back(unquoted(line.substr(0, end)));
+      if (end == std::string_view::npos) break;
+      line.remove_prefix(end);
+    }
+    return fields;
+  }
+  for (;;) {
+    // A separator inside quotes belongs to the field.
+    std::size_t end = 0;
+    const auto start = line.find_first_not_of(kBlanks);
+    if (start != std::string_view::npos && line[start] == '"') {
+      const auto quote = line.find('"', start + 1);
+      if (quote != std::string_view::npos) end = quote;
+    }
+    end = line.find(separator, end);
+    fields.emplace_back(unquoted(line.substr(0, end)));
+    if (end == std::string_view::npos) return fields;
+    line.remove_prefix(end + 1);
+  }
+}
+
+bool is_comment(std::string_view line) {
+  return line.front() == '#' || line.front() == '%' || line.front() == '!' || line.starts_with("//");
+}
+
+// The separator of a line: the first of tab, semicolon, bar, comma that it holds, else blanks. Commas inside
+// numbers that blanks separate are decimal commas.
+char separator_of(std::string_view line) {
+  for (const char candidate : {'\t', ';', '|'}) {
+    if (line.find(candidate) != std::string_view::npos) return candidate;
+  }
+  if (line.find(',') == std::string_view::npos) return ' ';
+  const std::vector<std::string> fields = fields_of(line, ' ');
+  const bool decimal_commas =
+      fields.size() > 1 && std::all_of(fields.begin(), fields.end(), [](std::string field) {
+        std::replace(field.begin(), field.end(), ',', '.');
+        return parse_number(field).has_value();
+      });
+  return decimal_commas ? ' ' : ',';
+}
+
+// Minus signs that word processors put for hyphens.
+std::string plain_minus(std::string field) {
+  for (auto at = field.find("\xE2\x88\x92"); at != std::string::npos; at = field.find("\xE2\x88\x92", at)) {
+    field.replace(at, 3, "-");
+  }
+  return field;
+}
+
+}  // namespace
+
+std::vector<TableRow> table_rows(const Source& source) {
+  std::string_view rest = source.text;
+  if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);
+  if (rest.starts_with("\xFF\xFE") || rest.starts_with("\xFE\xFF")) {
+    throw DataError(source.name, "", "UTF-16 text", "expected UTF-8");
+  }
+  const char line_end = rest.find('\n') == std::string_view::npos ? '\r' : '\n';  // old Macintosh files
+  std::vector<std::pair<long, std::string_view>> lines;
+  for (long number = 1; !rest.empty(); ++number) {
+    const auto end = rest.find(line_end);
+    const std::string_view line = trimmed(rest.substr(0, end));
+    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+    if (!line.empty() && !is_comment(line)) lines.emplace_back(number, line);
+  }
+  if (lines.empty()) return {};
+  // The last line is the least likely to be a header or a remark.
+  char separator = separator_of(lines.back().second);
+  if (lines.front().second.size() == 5 &&
+      lines.front().second.starts_with("sep=")) {  // a spreadsheet's own note
+    separator = lines.front().second.back();
+    lines.erase(lines.begin());
+  }
+  std::vector<TableRow> rows;
+  bool has_point = false, has_comma = false;
+  for (const auto& [number, line] : lines) {
+    rows.push_back({number, fields_of(line, separator)});
+    for (std::string& field : rows.back().fields) {
+      field = plain_minus(std::move(field));
+      // A comma left inside a field is a decimal comma where the whole field is then a number.
+      const bool comma = field.find(',') != std::string::npos;
+      std::string pointed = field;
+      if (comma) std::replace(pointed.begin(), pointed.end(), ',', '.');
+      if (!parse_number(pointed)) continue;
+      (comma ? has_comma : has_point) |= pointed.find('.') != std::string::npos;
+      if (has_comma && has_point) {
+        throw DataError(
+            source.name, line_place(number), field,
+            "expected one decimal mark in the file, commas or points, and no thousands separators");
+      }
+      field = std::move(pointed);
+    }
+  }
+  return rows;
+}
+
+bool is_header(const TableRow& row) {
+  return std::none_of(row.fields.begin(), row.fields.end(),
+                      [](const std::string& field) { return parse_number(field).has_value(); });
+}
+
+double table_number(const Source& source, const TableRow& row, std::size_t column, const char* expected) {
+  const std::string wanted = std::string("expected ") + expected + " in column " + std::to_string(column + 1);
+  if (column >= row.fields.size()) {
+    throw DataError(source.name, line_place(row.line), std::to_string(row.fields.size()) + " columns",
+                    wanted);
+  }
+  const auto value = parse_number(row.fields[column]);
+  if (!value) throw DataError(source.name, line_place(row.line), '"' + row.fields[column] + '"', wanted);
+  return *value;
+}
+
+}  // namespace stablecut::document

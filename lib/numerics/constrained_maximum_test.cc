@@ -1,0 +1,68 @@
+#include "numerics/constrained_maximum.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using namespace stablecut;
+using namespace stablecut::numerics;
+
+namespace {
+
+Variables variables(std::initializer_list<double> values) {
+  Variables v(static_cast<Eigen::Index>(values.size()));
+  Eigen::Index i = 0;
+  for (const double value : values) v[i++] = value;
+  return v;
+}
+
+// -|x - target|^2 (1 + x0^2) outside or inside a ball about the origin.
+ConstrainedFunction near_target(const Variables& target, double radius, double sense) {
+  return [=](const Variables& x) -> std::optional<ConstrainedValue> {
+    return ConstrainedValue{-(x - target).squaredNorm(),
+                            Eigen::VectorXd::Constant(1, sense * (x.norm() - radius))};
+  };
+}
+
+}  // namespace
+
+TEST_CASE("an optimum inside") {
+  const auto function = [](const Variables& x) -> std::optional<ConstrainedValue> {
+    return ConstrainedValue{-std::pow(x[0] - 0.3, 4) - std::pow(x[1] + 0.2 * x[0], 2), Eigen::VectorXd()};
+  };
+  const auto found =
+      constrained_maximum(function, variables({0.9, 0.9}), variables({-1, -1}), variables({1, 1}), 0.1, 1e-4);
+  REQUIRE(found);
+  CHECK(found->value > -1e-9);
+}
+
+TEST_CASE("an optimum on a curved constraint, also along it") {
+  // The point of the sphere nearest to the target, from the far side of it.
+  const Variables target = variables({0.3, -0.4, 0.5});
+  const auto found = constrained_maximum(near_target(target, 1, 1), variables({-0.9, 0.9, 0.1}),
+                                         variables({-2, -2, -2}), variables({2, 2, 2}), 0.05, 1e-4);
+  REQUIRE(found);
+  CHECK((found->point - target.normalized()).norm() < 1e-6);
+  CHECK(found->point.norm() >= 1);
+}
+
+TEST_CASE("an optimum in a corner of constraint and bound, and from a start that is not allowed") {
+  const Variables target = variables({3, 0.2});
+  for (const auto& start : {variables({0.1, 0.1}), variables({0.5, 1.9})}) {
+    const auto found = constrained_maximum(near_target(target, 1, -1), start, variables({0, 0.5}),
+                                           variables({2, 2}), 0.1, 1e-4);
+    REQUIRE(found);
+    CHECK(found->point[0] == Approx(std::sqrt(0.75)).epsilon(1e-8));
+    CHECK(found->point[1] == Approx(0.5).epsilon(1e-8));
+    CHECK(found->point.norm() <= 1);
+  }
+}
+
+TEST_CASE("nothing allowed, nothing found; nothing free, nothing moved") {
+  const Variables target = variables({3, 0});
+  CHECK_FALSE(constrained_maximum(near_target(target, 1, -1), variables({2, 2}), variables({1.5, 1.5}),
+                                  variables({3, 3}), 0.1, 1e-4));
+  const auto constant = [](const Variables&) -> std::optional<ConstrainedValue> {
+    return ConstrainedValue{7, Eigen::VectorXd::Constant(1, 1.0)};
+  };
+  CHECK(constrained_maximum(constant, Variables(0), Variables(0), Variables(0), 0.1, 1e-4)->value == 7);
+}

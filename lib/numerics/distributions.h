@@ -1,0 +1,22 @@
+// Distributions that intervals and comparisons need.
+#pragma once
+
+namespace stablecut::numerics {
+
+/// Probability that a standard normal variable lies below x.
+double normal_cdf(double x);
+
+/// Probability that a Student t variable with `dof` > 0 degrees of freedom lies below x.
+double student_t_cdf(double x, double dof);
+
+/// The x below which a Student t variable lies with probability p in (0, 1); relative error 1e-12. An
+/// infinite `dof` is the normal distribution.
+double student_t_quantile(double p, double dof);
+
+/// Probability that a chi-square variable with `dof` > 0 degrees of freedom exceeds x.
+double chi_square_tail(double x, double dof);
+
+/// Probability that an F variable with `numerator` and `denominator` degrees of freedom exceeds x.
+double f_tail(double x, double numerator, double denominator);
+
+}  // namespace stablecut::numerics
