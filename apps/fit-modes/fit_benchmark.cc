@@ -20,32 +20,23 @@
 #include "modal/fit.h"
 #include "modal/fit_data.h"
 #include "modal/fitted_table.h"
+#include "numerics/random.h"
 
 using namespace stablecut;
 using Complex = std::complex<double>;
 
 namespace {
 
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : generator_(seed) {}
-  double uniform() { return (static_cast<double>(generator_() >> 11) + 0.5) * 0x1p-53; }
-  Complex normal() {
-    return std::sqrt(-std::log(uniform())) * std::polar(1.0, 6.283185307179586 * uniform());
-  }
-
- private:
-  std::mt19937_64 generator_;
-};
-
 // Random vectors; modes of equal static compliance.
-dynamics::Mode random_mode(double frequency_hz, double damping_ratio, Random& random) {
+dynamics::Mode random_mode(double frequency_hz, double damping_ratio, std::mt19937_64& random) {
   dynamics::Mode mode;
   mode.frequency_hz = frequency_hz;
   mode.damping_ratio = damping_ratio;
   const double scale = std::sqrt(6.283185307179586 * frequency_hz * 1e-7);
-  mode.psi_r = scale * Eigen::Vector2cd(random.normal(), random.normal());
-  mode.psi_l = scale * Eigen::Vector2cd(random.normal(), random.normal());
+  mode.psi_r =
+      scale * Eigen::Vector2cd(numerics::unit_complex_normal(random), numerics::unit_complex_normal(random));
+  mode.psi_l =
+      scale * Eigen::Vector2cd(numerics::unit_complex_normal(random), numerics::unit_complex_normal(random));
   return dynamics::normalised(mode);
 }
 
@@ -53,7 +44,7 @@ dynamics::Mode random_mode(double frequency_hz, double damping_ratio, Random& ra
 dynamics::ModalModel hard_case(std::uint64_t seed) {
   constexpr double kPoles[][2] = {{120, 0.01},  {121.8, 0.012}, {260, 0.12}, {430, 0.03},
                                   {640, 0.008}, {648, 0.01},    {905, 0.2},  {1400, 0.02}};
-  Random random(seed);
+  std::mt19937_64 random(seed);
   dynamics::ModalModel model;
   model.dofs = {"x", "y"};
   for (const auto& pole : kPoles) model.modes.push_back(random_mode(pole[0], pole[1], random));
@@ -62,13 +53,14 @@ dynamics::ModalModel hard_case(std::uint64_t seed) {
 
 // 1 to 30 modes anywhere, damped by 0.3 to 20 %.
 dynamics::ModalModel any_case(std::uint64_t seed) {
-  Random random(seed);
+  std::mt19937_64 random(seed);
   dynamics::ModalModel model;
   model.dofs = {"x", "y"};
-  const double count = 1 + std::floor(30 * random.uniform());
+  const double count = 1 + std::floor(30 * numerics::uniform(random, 0, 1));
   for (int k = 0; k < count; ++k) {
-    const double frequency_hz = 20 * std::pow(90, random.uniform());
-    model.modes.push_back(random_mode(frequency_hz, 0.003 * std::pow(67, random.uniform()), random));
+    const double frequency_hz = 20 * std::pow(90, numerics::uniform(random, 0, 1));
+    model.modes.push_back(
+        random_mode(frequency_hz, 0.003 * std::pow(67, numerics::uniform(random, 0, 1)), random));
   }
   std::sort(model.modes.begin(), model.modes.end(),
             [](const dynamics::Mode& a, const dynamics::Mode& b) { return a.frequency_hz < b.frequency_hz; });

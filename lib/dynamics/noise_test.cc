@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "numerics/random.h"
+
 using namespace stablecut;
 using namespace stablecut::dynamics;
 
@@ -10,9 +12,8 @@ namespace {
 
 Eigen::VectorXcd white(Eigen::Index lines, double sigma) {
   std::mt19937_64 generator(9);
-  std::normal_distribution<double> normal(0, sigma / std::sqrt(2.0));
-  return Eigen::VectorXcd::NullaryExpr(
-      lines, [&] { return std::complex<double>(normal(generator), normal(generator)); });
+  return Eigen::VectorXcd::NullaryExpr(lines,
+                                       [&] { return sigma * numerics::unit_complex_normal(generator); });
 }
 
 Eigen::VectorXd lines_of(Eigen::Index lines) {

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "base/units.h"
-#include "numerics/random_normal.h"
+#include "numerics/random.h"
 
 namespace stablecut::dynamics {
 Eigen::MatrixXcd receptance_at(const ModalModel& model, std::complex<double> s) {

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
-#include "numerics/exponential_moments.h"
+#include "numerics/legendre.h"
 
 using namespace stablecut;
 using namespace stablecut::milling;

@@ -5,15 +5,16 @@
 #include <complex>
 #include <limits>
 
-#include "base/units.h"
+#include "numerics/chebyshev.h"
 #include "numerics/eigenvalues.h"
+#include "numerics/golden_section.h"
 
 namespace stablecut::milling {
 namespace {
 
 using Complex = std::complex<double>;
 constexpr Eigen::Index kNodes = DepthScan::kNodes;
-using Coefficients = Eigen::Matrix<double, kNodes, 1>;
+using Coefficients = numerics::ChebyshevSeries<kNodes>;
 
 // Branches that come closer to the largest modulus than this share could be the largest.
 constexpr double kRivalGap = 0.1;
@@ -31,30 +32,7 @@ constexpr int kSamples = 32;  // of a panel, when boundaries are looked for
 constexpr double kDepthTolerance = 1e-9;
 constexpr int kGoldenSteps = 40;
 
-// [nodes x nodes]: coefficients from values at the Chebyshev nodes, increasing.
-Eigen::Matrix<double, kNodes, kNodes> chebyshev_transform() {
-  Eigen::Matrix<double, kNodes, kNodes> transform;
-  for (Eigen::Index j = 0; j < kNodes; ++j) {
-    for (Eigen::Index i = 0; i < kNodes; ++i) {
-      const double angle = kPi * (static_cast<double>(kNodes - 1 - i) + 0.5) / kNodes;
-      transform(j, i) = (j == 0 ? 1.0 : 2.0) / kNodes * std::cos(static_cast<double>(j) * angle);
-    }
-  }
-  return transform;
-}
-double node_place(Eigen::Index i) {
-  return -std::cos(kPi * (static_cast<double>(i) + 0.5) / static_cast<double>(kNodes));
-}
-
-double chebyshev_value(const Coefficients& c, double x) {
-  double next = 0, after = 0;
-  for (Eigen::Index j = kNodes - 1; j > 0; --j) {
-    const double now = c[j] + 2 * x * next - after;
-    after = next;
-    next = now;
-  }
-  return c[0] + x * next - after;
-}
+double node_place(Eigen::Index i) { return numerics::chebyshev_node(i, kNodes); }
 
 // What the last coefficients say of the rest.
 double tail(const Coefficients& c) {
@@ -150,9 +128,9 @@ std::vector<Track> joined(const std::array<std::vector<Complex>, kNodes>& at_nod
 }  // namespace
 
 double DepthScan::Branch::radius(double x) const {
-  const double s = chebyshev_value(sum, x);
+  const double s = numerics::chebyshev_value<kNodes>(sum, x);
   if (!pair) return std::abs(s);
-  const double p = chebyshev_value(product, x);
+  const double p = numerics::chebyshev_value<kNodes>(product, x);
   const double discriminant = s * s / 4 - p;
   if (discriminant <= 0) return std::sqrt(p);
   if (discriminant < kMeeting * kMeeting * p) return std::numeric_limits<double>::quiet_NaN();
@@ -215,7 +193,7 @@ double DepthScan::resolve(Panel& panel) const {
     }
     return least;
   };
-  static const Eigen::Matrix<double, kNodes, kNodes> transform = chebyshev_transform();
+  static const Eigen::Matrix<double, kNodes, kNodes> transform = numerics::chebyshev_transform<kNodes>();
   const double size = std::max(1.0, *std::min_element(panel.radius.begin(), panel.radius.end()));
   double error = 0;
   const auto add = [&](bool pair, const Coefficients& sums, const Coefficients& products, double below) {
@@ -355,22 +333,12 @@ StabilityBoundary DepthScan::boundary_between(double stable_m, double unstable_m
 // The highest (sign 1) or lowest (sign -1) excess between two depths, or the first found beyond zero (golden
 // section).
 DepthScan::Sample DepthScan::climb(double from, double to, double sign) const {
-  constexpr double kGolden = 0.6180339887498949;
   const auto sample = [&](double depth) { return Sample{depth, excess(depth)}; };
-  double a = from, b = to;
-  Sample left = sample(b - kGolden * (b - a)), right = sample(a + kGolden * (b - a));
-  for (int step = 0; step < kGoldenSteps && sign * left.excess <= 0 && sign * right.excess <= 0; ++step) {
-    if (sign * left.excess > sign * right.excess) {
-      b = right.depth;
-      right = left;
-      left = sample(b - kGolden * (b - a));
-    } else {
-      a = left.depth;
-      left = right;
-      right = sample(a + kGolden * (b - a));
-    }
-  }
-  return sign * left.excess > sign * right.excess ? left : right;
+  return numerics::golden_section(
+      from, to, sample(from + numerics::kGoldenShare * (to - from)), kGoldenSteps,
+      [](const Sample& s) { return s.depth; }, sample,
+      [&](const Sample& a, const Sample& b) { return sign * a.excess > sign * b.excess; },
+      [&](const Sample& s) { return sign * s.excess > 0; });
 }
 
 std::vector<StabilityBoundary> DepthScan::boundaries() const {

@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "base/units.h"
+#include "numerics/golden_section.h"
 
 namespace stablecut::milling {
 namespace {
@@ -20,23 +21,16 @@ constexpr double kAbove = 1.1;  // of the chart's minimum: as far as limits near
 // Lower is better; a stable speed is as good as none.
 bool lower(const std::optional<double>& a, const std::optional<double>& b) { return a && (!b || *a < *b); }
 
-// Golden section between speeds around the lowest one known.
-LimitPoint refined_minimum(double from, double to, LimitPoint best, const LimitAt& limit_at) {
-  constexpr double kGolden = 0.3819660112501051;
+// Between speeds around the lowest one known.
+LimitPoint refined_minimum(double from, double to, const LimitPoint& best, const LimitAt& limit_at) {
   const double top = kAbove * *best.depth_m;
-  for (int step = 0; step < kGoldenSteps; ++step) {
-    const double middle = best.revolutions_per_s;
-    const bool right = to - middle > middle - from;
-    const double speed = right ? middle + kGolden * (to - middle) : middle - kGolden * (middle - from);
-    const LimitPoint trial{speed, limit_at(speed, top)};
-    if (lower(trial.depth_m, best.depth_m)) {
-      (right ? from : to) = middle;
-      best = trial;
-    } else {
-      (right ? to : from) = speed;
-    }
-  }
-  return best;
+  return numerics::golden_section(
+      from, to, best, kGoldenSteps, [](const LimitPoint& point) { return point.revolutions_per_s; },
+      [&](double speed) {
+        return LimitPoint{speed, limit_at(speed, top)};
+      },
+      [](const LimitPoint& a, const LimitPoint& b) { return lower(a.depth_m, b.depth_m); },
+      [](const LimitPoint&) { return false; });
 }
 
 // The lowest point of a narrow lobe inside the chart that lies below `top`, or no depth.

@@ -9,7 +9,8 @@
 #include "base/parallel.h"
 #include "milling/depth_scan.h"
 #include "milling/spectral.h"
-#include "numerics/random_normal.h"
+#include "numerics/order_statistics.h"
+#include "numerics/random.h"
 
 namespace stablecut::milling {
 namespace {
@@ -46,23 +47,13 @@ dynamics::ModalModel moved(dynamics::ModalModel model, const Eigen::VectorXd& by
   return model;
 }
 
-// Of sorted values, between the nearest two; none when that is infinite.
-std::optional<double> quantile(const std::vector<double>& sorted, double share) {
-  const double place = share * static_cast<double>(sorted.size()) - 0.5;
-  const auto last = static_cast<double>(sorted.size() - 1);
-  const double below = std::clamp(std::floor(place), 0.0, last), above = std::min(below + 1, last);
-  const double low = sorted[static_cast<std::size_t>(below)], high = sorted[static_cast<std::size_t>(above)];
-  if (!std::isfinite(high)) return std::isfinite(low) && place <= below ? std::optional(low) : std::nullopt;
-  return low + std::clamp(place - below, 0.0, 1.0) * (high - low);
-}
-
 }  // namespace
 
 std::vector<SampledCut> sampled_cuts(const dynamics::ModalModel& model, const Cutter& cutter,
                                      const CoefficientDeviations& deviations, int count, unsigned seed) {
   const Eigen::MatrixXd root = root_of(model.covariance);
   std::mt19937_64 generator(seed);
-  const auto normal = [&] { return std::sqrt(2.0) * numerics::unit_complex_normal(generator).real(); };
+  const auto normal = [&] { return numerics::unit_normal(generator); };
   std::vector<SampledCut> samples;
   while (static_cast<int>(samples.size()) < count) {
     Eigen::VectorXd z(root.cols());
@@ -109,7 +100,7 @@ SampledStability sampled_stability(const std::vector<SampledCut>& samples,
           }
         }
         std::sort(limits.begin(), limits.end());
-        result.limit_95_m[s] = {quantile(limits, kLow), quantile(limits, kHigh)};
+        result.limit_95_m[s] = {numerics::quantile(limits, kLow), numerics::quantile(limits, kHigh)};
       },
       progress);
   result.stable_share /= static_cast<double>(samples.size());

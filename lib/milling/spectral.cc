@@ -10,21 +10,12 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "numerics/exponential_moments.h"
+#include "numerics/legendre.h"
 
 namespace stablecut::milling {
 namespace {
 
 using Complex = std::complex<double>;
-
-// Coefficients of P_0 ... P_{n-1} from values at n Gauss nodes (exact: the products have degree below 2n).
-Eigen::MatrixXd legendre_from_nodes(const numerics::GaussRule& rule) {
-  const Eigen::Index n = rule.node.size();
-  Eigen::MatrixXd transform(n, n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    transform.col(i) = rule.weight[i] * numerics::legendre_values(rule.node[i], n);
-  for (Eigen::Index j = 0; j < n; ++j) transform.row(j) *= static_cast<double>(2 * j + 1) / 2;
-  return transform;
-}
 
 // Gauss points of a piece, alike for pieces of the same length.
 struct Shape {
@@ -33,7 +24,9 @@ struct Shape {
   Eigen::MatrixXd transform;
 
   Shape(double length, int points)
-      : length_s(length), rule(numerics::gauss_legendre(points)), transform(legendre_from_nodes(rule)) {}
+      : length_s(length),
+        rule(numerics::gauss_legendre(points)),
+        transform(numerics::legendre_transform(rule)) {}
   // [points]: a mode's value at a place in [-1, 1] of the piece, per force value at the nodes.
   Eigen::RowVectorXcd response(Complex lambda, double place) const {
     const Eigen::VectorXcd moments =

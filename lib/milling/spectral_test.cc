@@ -9,7 +9,7 @@
 #include "base/units.h"
 #include "milling/milling_fixtures_test.h"
 #include "milling/semi_discretization.h"
-#include "numerics/exponential_moments.h"
+#include "numerics/legendre.h"
 
 using namespace stablecut;
 using namespace stablecut::milling;

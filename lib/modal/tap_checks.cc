@@ -9,10 +9,12 @@
 #include "base/units.h"
 #include "dynamics/noise.h"
 #include "modal/disturbed_lines.h"
+#include "numerics/order_statistics.h"
 
 namespace stablecut::modal {
 namespace {
 
+using numerics::median;
 using Complex = std::complex<double>;
 
 constexpr double kUnevenLines = 1.05;
@@ -40,12 +42,6 @@ std::string number(double value) { return printed("%.3g", value); }
 
 std::string name_of(const dynamics::FrequencyResponseEntry& entry) {
   return "H" + entry.response + entry.reference;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // Some neighbouring lines of an entry, by medians.

@@ -8,7 +8,7 @@
 #include "base/units.h"
 #include "dynamics/synthesis.h"
 #include "modal/fit.h"
-#include "numerics/random_normal.h"
+#include "numerics/random.h"
 
 using namespace stablecut;
 using namespace stablecut::modal;

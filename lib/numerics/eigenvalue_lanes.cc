@@ -20,15 +20,6 @@ constexpr double kLeastSquare = 1e-280;
 constexpr int kRoundsBetween = 4;
 constexpr int kPatience = 60;  // sweeps for one eigenvalue
 
-STABLECUT_INLINE Lanes absolute(const Lanes& x) { return x < 0.0 ? -x : x; }
-STABLECUT_INLINE Lanes square_root(const Lanes& x) {
-  Lanes result;
-  for (int l = 0; l < kLanes; ++l) result[l] = __builtin_sqrt(x[l]);
-  return result;
-}
-// |size| with the sign of `like`.
-STABLECUT_INLINE Lanes with_sign(const Lanes& size, const Lanes& like) { return like < 0.0 ? -size : size; }
-
 // Lanes in memory, at whole cache lines: a vector that lies across two costs twice as much.
 class LaneArray {
  public:

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "numerics/eigenvalue_lanes.h"
+#include "numerics/random.h"
 
 using namespace stablecut;
 using namespace stablecut::numerics;
@@ -32,10 +33,10 @@ double mismatch(const Eigen::VectorXcd& values, const Eigen::VectorXcd& expected
 
 TEST_CASE("eigenvalues of random matrices are those of the Schur form") {
   std::mt19937_64 generator(3);
-  std::normal_distribution<double> normal;
   for (const int n : {1, 2, 3, 4, 7, 20, 54, 90}) {
     for (int trial = 0; trial < 10; ++trial) {
-      const Eigen::MatrixXd matrix = Eigen::MatrixXd::NullaryExpr(n, n, [&] { return normal(generator); });
+      const Eigen::MatrixXd matrix =
+          Eigen::MatrixXd::NullaryExpr(n, n, [&] { return unit_normal(generator); });
       const Eigen::VectorXcd values = eigenvalues(matrix);
       REQUIRE(values.size() == n);
       CHECK(mismatch(values, Eigen::EigenSolver<Eigen::MatrixXd>(matrix, false).eigenvalues()) <
@@ -47,12 +48,11 @@ TEST_CASE("eigenvalues of random matrices are those of the Schur form") {
 
 TEST_CASE("matrices side by side have the eigenvalues of each alone") {
   std::mt19937_64 generator(4);
-  std::normal_distribution<double> normal;
   for (const int n : {1, 2, 3, 5, 21, 47}) {
     for (const std::size_t count : {1U, 8U, 11U}) {
       std::vector<Eigen::MatrixXd> matrices;
       for (std::size_t i = 0; i < count; ++i) {
-        matrices.push_back(Eigen::MatrixXd::NullaryExpr(n, n, [&] { return normal(generator); }));
+        matrices.push_back(Eigen::MatrixXd::NullaryExpr(n, n, [&] { return unit_normal(generator); }));
         // Blocks that part early.
         if (i % 3 == 1) matrices.back().bottomLeftCorner(n / 2, n - n / 2).setZero();
       }
@@ -83,9 +83,8 @@ TEST_CASE("rotations, zero, identity, companion and permutation matrices") {
 
 TEST_CASE("the largest modulus: early stops agree with all eigenvalues") {
   std::mt19937_64 generator(5);
-  std::normal_distribution<double> normal;
   const auto random = [&](Eigen::Index rows, Eigen::Index columns) {
-    return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return normal(generator); }).eval();
+    return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return unit_normal(generator); }).eval();
   };
   for (const Eigen::Index n : {1, 2, 3, 12, 40}) {
     for (int trial = 0; trial < 20; ++trial) {

@@ -1,21 +1,11 @@
 // Integrals of an exponential against Legendre polynomials: the exact response of a mode to a polynomial
-// force.
+// force. README.md, "Exponential moments".
 #pragma once
 
 #include <Eigen/Core>
 #include <complex>
 
 namespace stablecut::numerics {
-
-/// Gauss-Legendre nodes (increasing) and weights on [-1, 1].
-struct GaussRule {
-  Eigen::VectorXd node;
-  Eigen::VectorXd weight;
-};
-GaussRule gauss_legendre(Eigen::Index points);
-
-/// P_0(x) ... P_{count-1}(x).
-Eigen::VectorXd legendre_values(double x, Eigen::Index count);
 
 /// I_j(x) = integral over s from -1 to x of exp(z (x - s)) P_j(s), for j = 0 ... count-1, x in (-1, 1].
 ///

@@ -2,19 +2,11 @@
 
 #include <catch2/catch.hpp>
 
+#include "numerics/legendre.h"
+
 using namespace stablecut;
 using namespace stablecut::numerics;
 using Complex = std::complex<double>;
-
-TEST_CASE("a Gauss rule integrates polynomials of degree 2n - 1 exactly") {
-  for (const int points : {1, 2, 7, 24}) {
-    const GaussRule rule = gauss_legendre(points);
-    CHECK(rule.weight.sum() == Approx(2).epsilon(1e-14));
-    const int degree = 2 * points - 2;  // even, so that the integral is not zero
-    CHECK(rule.weight.dot(rule.node.array().pow(degree).matrix()) ==
-          Approx(2.0 / (degree + 1)).epsilon(1e-12));
-  }
-}
 
 TEST_CASE("exponential moments equal their integral by a fine quadrature") {
   const GaussRule fine = gauss_legendre(120);

@@ -22,14 +22,55 @@ namespace stablecut::numerics {
 inline constexpr std::ptrdiff_t kLanes = 8;
 typedef double Lanes __attribute__((vector_size(kLanes * sizeof(double))));
 
-STABLECUT_INLINE Lanes load_lanes(const double* from) {
-  Lanes v;
+/// Half as many, for what comes in fours.
+inline constexpr std::ptrdiff_t kFourLanes = 4;
+typedef double FourLanes __attribute__((vector_size(kFourLanes * sizeof(double))));
+
+// Of either kind of vector.
+
+template <typename V = Lanes>
+STABLECUT_INLINE V load_lanes(const double* from) {
+  V v;
   std::memcpy(&v, from, sizeof v);
   return v;
 }
-STABLECUT_INLINE void store_lanes(const Lanes& v, double* to) { std::memcpy(to, &v, sizeof v); }
+template <typename V>
+STABLECUT_INLINE void store_lanes(const V& v, double* to) {
+  std::memcpy(to, &v, sizeof v);
+}
+
+template <typename V>
+STABLECUT_INLINE V square_root(const V& x) {
+  V result;
+  for (std::size_t lane = 0; lane < sizeof x / sizeof(double); ++lane) result[lane] = __builtin_sqrt(x[lane]);
+  return result;
+}
+template <typename V>
+STABLECUT_INLINE V absolute(const V& x) {
+  return x < 0.0 ? -x : x;
+}
+/// The size of one with the sign of the other; a zero counts as positive whatever its sign.
+template <typename V>
+STABLECUT_INLINE V with_sign(const V& size, const V& like) {
+  return like < 0.0 ? -size : size;
+}
+template <typename V>
+STABLECUT_INLINE V least(const V& a, const V& b) {
+  return a < b ? a : b;
+}
+template <typename V>
+STABLECUT_INLINE V largest(const V& a, const V& b) {
+  return a > b ? a : b;
+}
+/// In the same order on every processor.
 STABLECUT_INLINE double sum_of(const Lanes& v) {
   return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]));
+}
+
+/// The lanes' worth of numbers that `count` fill up to.
+template <typename Integer>
+constexpr Integer whole_lanes(Integer count) {
+  return (count + kLanes - 1) / kLanes * kLanes;
 }
 
 }  // namespace stablecut::numerics

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "base/error.h"
+#include "numerics/random.h"
 #include "receptance/receptance_fixtures_test.h"
 
 using namespace stablecut;
@@ -40,11 +41,7 @@ Eigen::VectorXcd tip_with(const JointData& data, const ToolJoint& joint) {
 
 // Circular noise of a standard deviation (both parts together).
 void add_circular_noise(Eigen::VectorXcd& tip, double deviation, std::mt19937_64& random) {
-  std::normal_distribution<double> normal(0, deviation / std::sqrt(2.0));
-  for (auto& value : tip) {
-    const double re = normal(random), im = normal(random);
-    value += std::complex<double>(re, im);
-  }
+  for (auto& value : tip) value += deviation * numerics::unit_complex_normal(random);
 }
 
 // Bound of the relative standard deviations, by finite differences of the curve: independent of the fit.
@@ -137,13 +134,14 @@ TEST_CASE("noise 40 dB below the curve's size: at the Cramer-Rao bound, and what
 TEST_CASE("no start is missed: random joints over seven decades, with and without noise") {
   const JointData clean = section_3(5);
   std::mt19937_64 random(4);
-  std::uniform_real_distribution<double> exponent1(4, 10), exponent2(1, 7), tangent(-4, -0.5);
+  const auto power = [&](double from, double to) {
+    return std::pow(10, numerics::uniform(random, from, to));
+  };
   int tried = 0;
   for (int run = 0; run < 40; ++run) {
     JointData data = clean;
-    const double k1 = std::pow(10, exponent1(random)), k2 = std::pow(10, exponent2(random));
-    const ToolJoint joint{k1, std::pow(10, tangent(random)) * k1 / 2000, k2,
-                          std::pow(10, tangent(random)) * k2 / 2000};
+    const double k1 = power(4, 10), k2 = power(1, 7);
+    const ToolJoint joint{k1, power(-4, -0.5) * k1 / 2000, k2, power(-4, -0.5) * k2 / 2000};
     data.tip = tip_with(data, joint);
     const double deviation =
         (run % 2) * 0.01 * data.tip.norm() / std::sqrt(static_cast<double>(data.tip.size()));
@@ -168,11 +166,9 @@ TEST_CASE("noise as a share of the value, known or not") {
     constexpr int kSeeds = 30;
     for (int seed = 1; seed <= kSeeds; ++seed) {
       std::mt19937_64 random(static_cast<std::uint64_t>(seed));
-      std::normal_distribution<double> normal(0, std::sqrt(0.5));
       data.tip = exact;
       for (Eigen::Index i = 0; i < exact.size(); ++i) {
-        const double re = normal(random), im = normal(random);
-        data.tip[i] += deviation[i] * std::complex<double>(re, im);
+        data.tip[i] += deviation[i] * numerics::unit_complex_normal(random);
       }
       data.variance = known ? Eigen::VectorXd(deviation.cwiseAbs2()) : Eigen::VectorXd();
       const JointEstimate estimate = identify_joint(data, {}, JointObjective::kComplex);

@@ -1,99 +1,38 @@
 #include "robot/arm_lanes.h"
 
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "base/units.h"
-#include "numerics/lanes.h"
+#include "numerics/elementary_lanes.h"
 
 namespace stablecut::robot {
 namespace {
 
-// Four doubles that the compiler keeps in vector registers: one of 256 bits where there are such, else two of
-// 128.
-typedef double Four __attribute__((vector_size(kArms * sizeof(double))));
+using Four = numerics::FourLanes;
+using numerics::absolute;
+using numerics::angle_of;
+using numerics::least;
+using numerics::square_root;
 
 constexpr double kReachTolerance = 1e-12;  // relative
 constexpr double kFreeRadius = 1e-10;      // m: nearer to axis 1 than this, joint 1 is free
 constexpr double kFreeSine = 1e-11;        // axes 4 and 6 nearer in line than this: joint 4 is free
 
-STABLECUT_INLINE Four square_root(const Four& v) {
-  return Four{__builtin_sqrt(v[0]), __builtin_sqrt(v[1]), __builtin_sqrt(v[2]), __builtin_sqrt(v[3])};
-}
-STABLECUT_INLINE Four size_of(const Four& v) { return v < 0 ? -v : v; }
-STABLECUT_INLINE Four least(const Four& a, const Four& b) { return a < b ? a : b; }
-STABLECUT_INLINE Four largest_of(const Four& a, const Four& b) { return a > b ? a : b; }
-STABLECUT_INLINE void store(const Four& v, double* to) { std::memcpy(to, &v, sizeof v); }
-STABLECUT_INLINE Four load(const double* from) {
-  Four v;
-  std::memcpy(&v, from, sizeof v);
-  return v;
-}
-
-// On |t| <= tan(pi/8): atan(t) = t + t^3 p(t^2). Interpolated at the 11 Chebyshev points of [0, tan^2(pi/8)];
-// the error of the polynomial is 5e-18.
-constexpr double kA[11] = {-0.3333333333333333,  0.1999999999999552,   -0.14285714284666542,
-                           0.11111111015256292,  -0.09090904578121085, 0.07692183190760651,
-                           -0.0666451144646022,  0.05858148904795124,  -0.050854496960392584,
-                           0.039231657085083686, -0.019176885636589053};
-
-// Without branches: |y/x| or |x/y|, whichever is at most 1, and above tan(pi/8) the distance from pi/4.
-STABLECUT_INLINE Four angle_of(const Four& y, const Four& x) {
-  const Four ax = size_of(x), ay = size_of(y);
-  const Four large = largest_of(ax, ay), small = least(ax, ay);
-  const auto upper = small > 0.41421356237309503 * large;
-  const Four denominator = upper ? small + large : large;
-  const Four t = (upper ? small - large : small) / (denominator > 0 ? denominator : Four{} + 1);
-  const Four s = t * t;
-  Four p = Four{} + kA[10];
-  for (int i = 9; i >= 0; --i) p = p * s + kA[i];
-  Four angle = t + t * s * p + (upper ? Four{} + 0.25 * kPi : Four{});
-  angle = ay > ax ? 0.5 * kPi - angle : angle;
-  angle = x < 0 ? kPi - angle : angle;
-  return y < 0 ? -angle : angle;
-}
-
-// Rounds by adding what has no fraction bits, which is the same on every processor.
-STABLECUT_INLINE Four nearest_whole(const Four& value) {
-  constexpr double kShift = 6755399441055744.0;  // 1.5 * 2^52
-  return (value + kShift) - kShift;
-}
+STABLECUT_INLINE Four load(const double* from) { return numerics::load_lanes<Four>(from); }
+STABLECUT_INLINE void store(const Four& v, double* to) { numerics::store_lanes(v, to); }
 
 // theta -> the controller angle nearest the middle of the range.
 STABLECUT_INLINE Four controller_angle(const ArmConstants& robot, int joint, const Four& theta) {
   const Four angle = robot.sign[joint] * (theta - robot.offset[joint]);
-  return angle + kTwoPi * nearest_whole((robot.middle[joint] - angle) * (1 / kTwoPi));
+  return angle + kTwoPi * numerics::nearest_whole((robot.middle[joint] - angle) * (1 / kTwoPi));
 }
 
 STABLECUT_INLINE Four joint_margin(const ArmConstants& robot, int joint, const Four& angle) {
-  return robot.half_range[joint] - size_of(angle - robot.middle[joint]);
+  return robot.half_range[joint] - absolute(angle - robot.middle[joint]);
 }
 
 }  // namespace
-
-// Reduced to |r| <= pi/4 by pi/2 in three parts, whose products with a small whole number are exact; then the
-// series, whose next terms are below 5e-17.
-STABLECUT_WIDE void sines_and_cosines(const double angle[8], double sine[8], double cosine[8]) {
-  constexpr double kHigh = 0x1.921fb544p+0, kMiddle = 0x1.0b4611a6p-34, kLow = 0x1.3198a2e037073p-69;
-  const Four one = Four{} + 1;
-  for (int half = 0; half < 8; half += kArms) {
-    const Four x = load(angle + half);
-    const Four k = nearest_whole(x * (2 / kPi));
-    const Four r = ((x - k * kHigh) - k * kMiddle) - k * kLow;
-    const Four r2 = r * r;
-    Four s = one, c = one;
-    for (int n = 16; n >= 2; n -= 2) {
-      c = 1 - r2 * c * (1.0 / (n * (n - 1)));
-      if (n <= 14) s = 1 - r2 * s * (1.0 / (n * (n + 1)));
-    }
-    s = r * s;
-    const Four quarter = k - 4 * nearest_whole(0.25 * k - 0.375);
-    const Four s_or_c = quarter == 1 || quarter == 3 ? c : s, c_or_s = quarter == 1 || quarter == 3 ? s : c;
-    store(quarter >= 2 ? -s_or_c : s_or_c, sine + half);
-    store(quarter == 1 || quarter == 2 ? -c_or_s : c_or_s, cosine + half);
-  }
-}
 
 STABLECUT_WIDE void solve_arms(const ArmConstants& robot, const ArmTarget& target, ArmLanes& out) {
   const ArmConstants k = robot;
@@ -139,7 +78,7 @@ STABLECUT_WIDE void solve_arms(const ArmConstants& robot, const ArmTarget& targe
   const Four u = x1 - k.a1;
   const Four reach2 = u * u + v * v;
   const Four cos_bent_raw = (reach2 - sum2) * per_2al;
-  const auto bends = size_of(cos_bent_raw) <= 1 + kReachTolerance;
+  const auto bends = absolute(cos_bent_raw) <= 1 + kReachTolerance;
   if (!shoulder_reaches || !(bends[0] || bends[2])) {  // the elbow's side does not matter here
     const double sixth[3] = {z6[0], z6[1], z6[2]}, wrist[3] = {wx, wy, wz};
     out = ArmLanes{};
@@ -150,7 +89,7 @@ STABLECUT_WIDE void solve_arms(const ArmConstants& robot, const ArmTarget& targe
     for (double& margin : out.limit_margin) margin = -std::numeric_limits<double>::infinity();
     return;
   }
-  const Four cb = least(largest_of(cos_bent_raw, Four{} - 1), Four{} + 1);
+  const Four cb = least(numerics::largest(cos_bent_raw, Four{} - 1), Four{} + 1);
   const Four sb = side * square_root((1 - cb) * (1 + cb));
   const Four tx = k.a2 + k.forearm * cb, ty = k.forearm * sb;
   const Four size2 = reach2 * (tx * tx + ty * ty);
@@ -271,13 +210,9 @@ STABLECUT_WIDE void largest_arm_compliances(const double compliance[6][kArms], d
   const Four p = square_root(p2), zero = {}, one = zero + 1;
   const Four determinant = a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz);
   const Four ratio = p2 > 0 ? 0.5 * determinant / (p2 * p) : zero;
-  const Four r = least(one, largest_of(-one, ratio));
+  const Four r = least(one, numerics::largest(-one, ratio));
   const Four third = angle_of(square_root((1 - r) * (1 + r)), r) * (1.0 / 3);
-  // cos on [0, pi/3] by its series; the next term is below 1e-17.
-  const Four t2 = third * third;
-  Four cosine = one;
-  for (int n = 18; n >= 2; n -= 2) cosine = 1 - t2 * cosine * (1.0 / (n * (n - 1)));
-  store(mean + 2 * p * cosine, largest);
+  store(mean + 2 * p * numerics::cosine_of_small(third), largest);
 }
 
 }  // namespace stablecut::robot

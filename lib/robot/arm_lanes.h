@@ -45,9 +45,6 @@ struct ArmLanes {
   double axis6[3], wrist[3];
 };
 
-/// Sines and cosines of eight angles below 1e5 rad in size, to 3e-16.
-void sines_and_cosines(const double angle[8], double sine[8], double cosine[8]);
-
 /// Policies where the target leaves a joint free: on axis 1, and with axes 4 and 6 in line,
 /// joints 1 and 4 take their free angle (and joint 6 the rest); with the wrist centre on axis 2 joint 2's
 /// theta is 0. A target within 1e-12 (relative) outside the reach counts as stretched.

@@ -129,7 +129,7 @@ TEST_CASE("deviations of a pose's score by sampling") {
   constexpr int kDraws = 20000;
   for (int n = 0; n < kDraws; ++n) {
     JointAngles z;
-    for (double& value : z) value = normal(generator);
+    for (double& value : z) value = numerics::unit_normal(generator);
     const JointAngles drawn = c + factor.matrixL() * z;
     const double score_a = report_pose(robot, first, task, drawn, {}).score;
     better += score_a < report_pose(robot, second, task, drawn, {}).score;

@@ -79,9 +79,9 @@ std::vector<LoadSample> samples_of(const Robot& robot, const Setup& setup) {
 
 void add_noise(std::vector<LoadSample>& samples, double std_m, double std_rad, std::mt19937_64& generator) {
   for (LoadSample& sample : samples) {
-    for (double& value : sample.deflection_m) value += std_m * normal(generator);
+    for (double& value : sample.deflection_m) value += std_m * numerics::unit_normal(generator);
     if (!sample.rotation_rad) continue;
-    for (double& value : *sample.rotation_rad) value += std_rad * normal(generator);
+    for (double& value : *sample.rotation_rad) value += std_rad * numerics::unit_normal(generator);
   }
 }
 

@@ -4,7 +4,7 @@
 #include <Eigen/SVD>
 #include <cmath>
 
-#include "robot/arm_lanes.h"
+#include "numerics/elementary_lanes.h"
 
 namespace stablecut::robot {
 namespace {
@@ -23,7 +23,7 @@ RobotPose robot_pose(const Robot& robot, const JointAngles& angles) {
   RobotPose pose;
   double theta[8] = {}, sine[8], cosine[8];
   for (int j = 0; j < kJoints; ++j) theta[j] = robot.joints[j].theta_of(angles[j]);
-  sines_and_cosines(theta, sine, cosine);
+  numerics::sines_and_cosines(theta, sine, cosine);
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   for (int j = 0; j < kJoints; ++j) {

@@ -160,8 +160,8 @@ TEST_CASE("random tasks: the search is never beaten by random poses") {
       // Half of them near the optimum found.
       const double spread = i % 2 == 0 ? 1 : 0.02;
       const auto draw = [&](const Range& range, double at) {
-        const double value =
-            spread == 1 ? uniform(generator, range.from, range.to) : at + spread * normal(generator);
+        const double value = spread == 1 ? uniform(generator, range.from, range.to)
+                                         : at + spread * numerics::unit_normal(generator);
         return std::clamp(value, range.from, range.to);
       };
       const double x = draw(task.x, search.best.at.x), y = draw(task.y, search.best.at.y);

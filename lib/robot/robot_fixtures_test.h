@@ -4,6 +4,7 @@
 #include <random>
 
 #include "base/units.h"
+#include "numerics/random.h"
 #include "robot/pose_task.h"
 #include "robot/robot.h"
 
@@ -45,14 +46,7 @@ inline JointAngles k_theta_2d() {
   return (JointAngles() << 6.89e6, 4.53e6, 3.40e6, 2.13e6, 1.27e6, 6.32e5).finished();
 }
 
-inline double uniform(std::mt19937_64& generator, double from, double to) {
-  return from + (to - from) * static_cast<double>(generator() >> 11) * 0x1p-53;
-}
-
-inline double normal(std::mt19937_64& generator) {
-  const double radius = std::sqrt(-2 * std::log(uniform(generator, 0, 1) + 0x1p-54));
-  return radius * std::cos(kTwoPi * uniform(generator, 0, 1));
-}
+using numerics::uniform;
 
 inline JointAngles random_angles(const Robot& robot, std::mt19937_64& generator) {
   JointAngles angles;
