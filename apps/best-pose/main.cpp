@@ -99,8 +99,7 @@ class BestPose : public cli::Tool {
     document.task = stiffness;
     document.covariance = joints.compliance_covariance;
     robot::JointAngles compliance;
-    for (int j = 0; j < robot::kJoints; ++j)
-      compliance[j] = 1 / *joints.stiffness[static_cast<std::size_t>(j)];
+    for (int j = 0; j < robot::kJoints; ++j) compliance[j] = 1 / *joints.stiffness[j];
     if (evaluate)
       score_poses(robot, compliance, document);
     else
@@ -178,7 +177,7 @@ class BestPose : public cli::Tool {
         for (const robot::Joint& known : robot.joints) names += (names.empty() ? "" : ", ") + known.name;
         throw usage("--assume: " + name + ": expected one of " + names);
       }
-      auto& stiffness = joints.stiffness[static_cast<std::size_t>(joint - robot.joints.begin())];
+      auto& stiffness = joints.stiffness[joint - robot.joints.begin()];
       if (stiffness)
         throw usage("--assume: " + name + ": " + source.name +
                     " has a stiffness for it: expected a joint without");

@@ -124,7 +124,7 @@ Outcome run(const Case& c, std::uint64_t seed) {
     const dynamics::Mode mode = dynamics::normalised(truth.modes[k]);
     const Complex lambda = mode.pole();
     // Frequency and damping move the pole at right angles.
-    const auto at = static_cast<Eigen::Index>(10 * k);
+    const Eigen::Index at = 10 * k;
     const double pole_bound =
         std::abs(lambda) *
         std::sqrt(bound.covariance(at, at) / std::pow(mode.frequency_hz, 2) +
@@ -144,7 +144,7 @@ Outcome run(const Case& c, std::uint64_t seed) {
     taken[nearest] = true;
     if (outcome.modes != outcome.wanted) continue;
     const Eigen::VectorXd off = (parameters_of(fit.model.modes[nearest]) - parameters_of(mode)).cwiseAbs();
-    const Eigen::VectorXd deviation = fit.model.deviation(static_cast<Eigen::Index>(nearest));
+    const Eigen::VectorXd deviation = fit.model.deviation(nearest);
     outcome.parameters += 10;
     outcome.inside += static_cast<std::size_t>((off.array() <= 1.959964 * deviation.array()).count());
   }
@@ -158,7 +158,7 @@ int main(int argc, char** argv) {
   std::ifstream file(argv[1]);
   const document::Source source{argv[1], std::string(std::istreambuf_iterator<char>(file), {})};
   const dynamics::ModalModel thesis = document::modal_table_from_json(document::parse_json(source), source);
-  const auto seeds = static_cast<std::size_t>(argc > 2 ? std::atoi(argv[2]) : 50);
+  const std::size_t seeds = argc > 2 ? std::atoi(argv[2]) : 50;
   const Eigen::VectorXd thesis_lines = Eigen::VectorXd::LinSpaced(3993, 2, 1000);
   const Eigen::VectorXd hard_lines = Eigen::VectorXd::LinSpaced(2048, 1, 2000);
   const auto of_thesis = [&](std::uint64_t) { return thesis; };
@@ -187,8 +187,7 @@ int main(int argc, char** argv) {
       in += o.inside;
       of += o.parameters;
       seconds += o.seconds;
-      for (std::size_t k = 0; k < o.error.size() && o.resolvable; ++k)
-        square[static_cast<Eigen::Index>(k)] += o.error[k] * o.error[k];
+      for (std::size_t k = 0; k < o.error.size() && o.resolvable; ++k) square[k] += o.error[k] * o.error[k];
     }
     Eigen::Index worst = 0;
     const double rms =

@@ -121,8 +121,8 @@ class FitModes : public cli::Tool {
     input_name_ = input.source.name;
     const dynamics::ModalModel model = document::modal_table_from_json(input.document, input.source);
     const std::vector<double> lines = synthesize_->values();
-    dynamics::FrequencyResponse frf = dynamics::synthesize(
-        model, Eigen::Map<const Eigen::VectorXd>(lines.data(), static_cast<Eigen::Index>(lines.size())));
+    dynamics::FrequencyResponse frf =
+        dynamics::synthesize(model, Eigen::Map<const Eigen::VectorXd>(lines.data(), lines.size()));
     if (noise_db_ || noise_floor_db_) {
       dynamics::add_noise(frf, {noise_db_, noise_floor_db_, static_cast<std::uint64_t>(seed_.value_or(1))});
       if (no_variance_) {

@@ -118,8 +118,8 @@ class JointStiffnessTool : public cli::Tool {
     const robot::Identification& found = document.identification;
     for (int j = 0; j < robot::kJoints; ++j) {
       if (found.identified(j)) continue;
-      warn("joint " + robot.joints[static_cast<std::size_t>(j)].name +
-           " is not identified: " + document::verdict_text(found.verdict[static_cast<std::size_t>(j)]));
+      warn("joint " + robot.joints[j].name +
+           " is not identified: " + document::verdict_text(found.verdict[j]));
     }
     if (!found.deviations_known) {
       warn(input.source.name + ": as many unknowns as measured values: no deviations and no intervals");
@@ -136,7 +136,7 @@ class JointStiffnessTool : public cli::Tool {
           text, sizeof text, "%.1f um from the model, %.1f deviations%s", outlier.residual_m * 1e6,
           outlier.deviations,
           document.options.huber ? "" : ": an outlier? (--loss huber makes such samples count less)");
-      warn(input.source.name + ": " + samples.places[static_cast<std::size_t>(outlier.sample)] + ": " + text);
+      warn(input.source.name + ": " + samples.places[outlier.sample] + ": " + text);
     }
     write_document(main_output(), document::identification_to_json(document, robot));
   }
@@ -182,10 +182,8 @@ class JointStiffnessTool : public cli::Tool {
     }
     document.plan = robot::plan_measurements(robot, document.candidates, components_, *plan_);
     for (int j = 0; j < robot::kJoints; ++j) {
-      if (document.plan.identifiability.visibility[static_cast<std::size_t>(j)] !=
-          robot::Visibility::kVisible) {
-        warn("joint " + robot.joints[static_cast<std::size_t>(j)].name +
-             " cannot be identified from these poses and loads");
+      if (document.plan.identifiability.visibility[j] != robot::Visibility::kVisible) {
+        warn("joint " + robot.joints[j].name + " cannot be identified from these poses and loads");
       }
     }
     write_document(main_output(), document::plan_to_json(document, robot));

@@ -100,7 +100,7 @@ class RcsaCouple : public cli::Tool {
       const auto equals = part.find('=');
       const auto name = std::find(kJointNames.begin(), kJointNames.end(), part.substr(0, equals));
       const auto band = equals == std::string::npos ? std::nullopt : parse_band(part.substr(equals + 1));
-      const auto at = static_cast<std::size_t>(name - kJointNames.begin());
+      const std::size_t at = name - kJointNames.begin();
       if (name == kJointNames.end() || !band ||
           !(band->from >= receptance::kLeastBound[at] && band->to <= receptance::kLargestBound)) {
         throw CLI::ValidationError(
@@ -143,7 +143,7 @@ class RcsaCouple : public cli::Tool {
     for (const double a : positions_m_) {
       for (const double b : positions_m_) places.emplace_back(a, b);
     }
-    const auto lines = static_cast<std::size_t>(assembly.frequency_hz.size());
+    const std::size_t lines = assembly.frequency_hz.size();
     const std::size_t pairs = std::max<std::size_t>(places.size(), 1);
     std::vector<receptance::Receptance<4>> value(lines * pairs);
     {
@@ -151,7 +151,7 @@ class RcsaCouple : public cli::Tool {
       parallel_for(
           lines, threads(),
           [&](std::size_t i) {
-            const auto line = static_cast<Eigen::Index>(i);
+            const Eigen::Index line = i;
             if (places.empty()) value[i] = assembly.tip(line);
             for (std::size_t p = 0; p < places.size(); ++p)
               value[i * pairs + p] = assembly.along_tool(line, places[p].first, places[p].second);
@@ -161,9 +161,7 @@ class RcsaCouple : public cli::Tool {
     dynamics::FrequencyResponse frf;
     frf.frequency_hz = assembly.frequency_hz;
     const int step = slopes_ ? 1 : 2;  // through w_x, slope_x, w_y, slope_y
-    const auto name = [](int i) {
-      return std::string(i % 2 == 1 ? "slope_" : "") + kDirections[static_cast<std::size_t>(i / 2)];
-    };
+    const auto name = [](int i) { return std::string(i % 2 == 1 ? "slope_" : "") + kDirections[i / 2]; };
     for (std::size_t p = 0; p < pairs; ++p) {
       for (int a = 0; a < 4; a += step) {
         for (int b = 0; b < 4; b += step) {
@@ -176,7 +174,7 @@ class RcsaCouple : public cli::Tool {
           }
           entry.h.resize(assembly.frequency_hz.size());
           for (std::size_t i = 0; i < lines; ++i) {
-            const auto line = static_cast<Eigen::Index>(i);
+            const Eigen::Index line = i;
             entry.h[line] = value[i * pairs + p](a, b);
             if (!std::isfinite(std::abs(entry.h[line]))) {
               throw document::DataError(

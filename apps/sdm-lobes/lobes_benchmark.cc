@@ -85,7 +85,7 @@ void the_thesis_case(const Case& thesis) {
     const milling::SpectralMap map(thesis.structure, thesis.cutter, thesis.speeds[s], finer);
     const std::vector<double> radii = milling::spectral_radii(map, thesis.depths);
     for (std::size_t i = 0; i < radii.size(); ++i) {
-      const double own = chart.spectral_radius(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(s));
+      const double own = chart.spectral_radius(i, s);
       error = std::max(error, std::abs(own - radii[i]) / std::max(1.0, radii[i]));
     }
     const std::vector<double> between = milling::spectral_radii(map, fine);

@@ -252,7 +252,7 @@ class SdmLobes : public cli::Tool {
           std::upper_bound(axes.revolutions_per_s.begin(), axes.revolutions_per_s.end(), speed);
       const auto below = std::max<std::ptrdiff_t>(above - axes.revolutions_per_s.begin() - 1, 0);
       return milling::limit_depth(structure, cut.cutter, speed, lobes.scheme.method,
-                                  lobes.chart.resolution[static_cast<std::size_t>(below)], largest_depth_m);
+                                  lobes.chart.resolution[below], largest_depth_m);
     };
     what.unconditional = milling::unconditional_limit(
         curve, top,
@@ -267,8 +267,7 @@ class SdmLobes : public cli::Tool {
       if (most_power_) what.limits.largest_depth_times_speed = *most_power_ / unit.power_w;
       if (most_torque_) what.limits.largest_depth_by_torque = *most_torque_ / unit.torque_n_m;
     }
-    what.best = milling::best_points(curve, what.limits, static_cast<std::size_t>(best_.value_or(5)),
-                                     limit_at, threads());
+    what.best = milling::best_points(curve, what.limits, best_.value_or(5), limit_at, threads());
     if (cut.feed_per_tooth_m) {
       for (const milling::OperatingPoint& point : what.best)
         what.rates.push_back(
@@ -342,7 +341,7 @@ class SdmLobes : public cli::Tool {
                            "--modes: " + std::to_string(index) + ": expected at most " +
                                std::to_string(model.modes.size()) + ", the modes of " + source.name);
       }
-      selected.push_back(static_cast<std::size_t>(index - 1));
+      selected.push_back(index - 1);
     }
     return dynamics::chosen_modes(model, selected);
   }

@@ -42,7 +42,7 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
     }
   };
 
-  const std::size_t helpers = std::min<std::size_t>(count, static_cast<std::size_t>(std::max(threads, 1)));
+  const std::size_t helpers = std::min<std::size_t>(count, std::max(threads, 1));
   std::vector<std::jthread> pool;
   for (std::size_t k = 1; k < helpers; ++k) pool.emplace_back(worker);
   worker();

@@ -29,9 +29,9 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 }
 
 std::vector<double> Range::values() const {
-  std::vector<double> result(static_cast<std::size_t>(count));
+  std::vector<double> result(count);
   for (int i = 0; i < count; ++i) {
-    result[static_cast<std::size_t>(i)] = at(i);
+    result[i] = at(i);
   }
   return result;
 }

@@ -22,7 +22,7 @@ document::Source read_source(const std::string& path) {
   if (file < 0) fail(ExitStatus::kNoInput, "cannot be read");
   struct stat status {};
   if (fstat(file, &status) == 0 && S_ISREG(status.st_mode)) {
-    source.text.reserve(static_cast<std::size_t>(status.st_size));
+    source.text.reserve(status.st_size);
   }
   std::array<char, 1 << 16> buffer;
   ssize_t got = 0;
@@ -33,7 +33,7 @@ document::Source read_source(const std::string& path) {
       if (!standard) close(file);
       fail(unreadable ? ExitStatus::kNoInput : ExitStatus::kIo, "cannot be read");
     }
-    source.text.append(buffer.data(), static_cast<std::size_t>(got));
+    source.text.append(buffer.data(), got);
   }
   if (!standard) close(file);
   return source;

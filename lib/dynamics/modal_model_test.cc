@@ -118,9 +118,9 @@ TEST_CASE("without an exponential window, poles are what they were, and so is th
       const auto moved = [&](double step) {
         ModalModel other = windowed;
         other.covariance.resize(0, 0);
-        Mode& mode = other.modes[static_cast<std::size_t>(k)];
+        Mode& mode = other.modes[k];
         (p == 0 ? mode.frequency_hz : mode.damping_ratio) += step;
-        const Mode result = without_window(other, decay).modes[static_cast<std::size_t>(k)];
+        const Mode result = without_window(other, decay).modes[k];
         return Eigen::Vector2d(result.frequency_hz, result.damping_ratio);
       };
       const double step = p == 0 ? 1e-3 : 1e-6;

@@ -8,7 +8,7 @@
 
 namespace stablecut::dynamics {
 Eigen::MatrixXcd receptance_at(const ModalModel& model, std::complex<double> s) {
-  const auto n = static_cast<Eigen::Index>(model.dofs.size());
+  const Eigen::Index n = model.dofs.size();
   Eigen::MatrixXcd h = Eigen::MatrixXcd::Zero(n, n);
   for (const Mode& mode : model.modes) {
     const std::complex<double> lambda = mode.pole();
@@ -30,11 +30,11 @@ FrequencyResponse synthesize(const ModalModel& model, const Eigen::VectorXd& fre
       frf.entries.push_back(std::move(entry));
     }
   }
-  const auto n = static_cast<Eigen::Index>(model.dofs.size());
+  const Eigen::Index n = model.dofs.size();
   for (Eigen::Index line = 0; line < frequency_hz.size(); ++line) {
     const Eigen::MatrixXcd h = receptance_at(model, {0, rad_per_s_from_hz(frequency_hz[line])});
     for (Eigen::Index e = 0; e < n * n; ++e) {
-      frf.entries[static_cast<std::size_t>(e)].h[line] = h(e / n, e % n);
+      frf.entries[e].h[line] = h(e / n, e % n);
     }
   }
   return frf;

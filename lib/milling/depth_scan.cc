@@ -61,7 +61,7 @@ Weights extrapolation(Eigen::Index next, Eigen::Index count) {
         weight *= (node_place(next) - node_place(next - 1 - j)) /
                   (node_place(next - 1 - i) - node_place(next - 1 - j));
     }
-    weights[static_cast<std::size_t>(i)] = weight;
+    weights[i] = weight;
   }
   return weights;
 }
@@ -72,8 +72,7 @@ const std::array<std::array<Weights, kRemembered>, kNodes>& extrapolations() {
     std::array<std::array<Weights, kRemembered>, kNodes> table{};
     for (Eigen::Index next = 1; next < kNodes; ++next) {
       for (Eigen::Index count = 1; count <= std::min(kRemembered, next); ++count)
-        table[static_cast<std::size_t>(next)][static_cast<std::size_t>(count - 1)] =
-            extrapolation(next, count);
+        table[next][count - 1] = extrapolation(next, count);
     }
     return table;
   }();
@@ -82,7 +81,7 @@ const std::array<std::array<Weights, kRemembered>, kNodes>& extrapolations() {
 
 Complex expected(const Track& track) {
   const std::size_t count = std::min<std::size_t>(kRemembered, track.values.size());
-  const Weights& weights = extrapolations()[static_cast<std::size_t>(track.end())][count - 1];
+  const Weights& weights = extrapolations()[track.end()][count - 1];
   Complex sum = 0;
   for (std::size_t i = 0; i < count; ++i) sum += weights[i] * track.values[track.values.size() - 1 - i];
   return sum;
@@ -92,7 +91,7 @@ Complex expected(const Track& track) {
 std::vector<Track> joined(const std::array<std::vector<Complex>, kNodes>& at_node) {
   std::vector<Track> tracks;
   for (Eigen::Index i = 0; i < kNodes; ++i) {
-    const std::vector<Complex>& values = at_node[static_cast<std::size_t>(i)];
+    const std::vector<Complex>& values = at_node[i];
     struct Match {
       double distance;  // squared
       std::size_t track, value;
@@ -168,8 +167,7 @@ DepthScan::DepthScan(const PeriodMap& map, double largest_depth_m, double tolera
 // joined.
 double DepthScan::resolve(Panel& panel) const {
   for (Eigen::Index i = 0; i < kNodes; ++i) {
-    panel.depth_m[static_cast<std::size_t>(i)] =
-        panel.from_m + (1 + node_place(i)) / 2 * (panel.to_m - panel.from_m);
+    panel.depth_m[i] = panel.from_m + (1 + node_place(i)) / 2 * (panel.to_m - panel.from_m);
   }
   const std::vector<Eigen::VectorXcd> multipliers =
       leading_multipliers(map_, {panel.depth_m.begin(), panel.depth_m.end()});
@@ -188,8 +186,8 @@ double DepthScan::resolve(Panel& panel) const {
   const auto gap = [&](const Track& track) {
     double least = 1;
     for (Eigen::Index i = track.first; i < track.end(); ++i) {
-      const double modulus = std::sqrt(std::norm(track.values[static_cast<std::size_t>(i - track.first)]));
-      least = std::min(least, 1 - modulus / panel.radius[static_cast<std::size_t>(i)]);
+      const double modulus = std::sqrt(std::norm(track.values[i - track.first]));
+      least = std::min(least, 1 - modulus / panel.radius[i]);
     }
     return least;
   };
@@ -211,7 +209,7 @@ double DepthScan::resolve(Panel& panel) const {
       used[t] = true;
       Coefficients sums, products;
       for (Eigen::Index i = 0; i < kNodes; ++i) {
-        const Complex value = track.values[static_cast<std::size_t>(i)];
+        const Complex value = track.values[i];
         sums[i] = track.real ? value.real() : 2 * value.real();
         products[i] = std::norm(value);
       }
@@ -230,12 +228,12 @@ double DepthScan::resolve(Panel& panel) const {
     Coefficients sums, products;
     for (Eigen::Index i = 0; i < kNodes; ++i) {
       if (i >= track.first && i < track.end()) {
-        const Complex value = track.values[static_cast<std::size_t>(i - track.first)];
+        const Complex value = track.values[i - track.first];
         sums[i] = 2 * value.real();
         products[i] = std::norm(value);
       } else {
         const auto real_at = [&](std::size_t partner) {
-          return tracks[partner].values[static_cast<std::size_t>(i - tracks[partner].first)].real();
+          return tracks[partner].values[i - tracks[partner].first].real();
         };
         sums[i] = real_at(partners[0]) + real_at(partners[1]);
         products[i] = real_at(partners[0]) * real_at(partners[1]);

@@ -134,9 +134,9 @@ StabilityChart stability_chart(const TipStructure& structure, const Cutter& cutt
                                const std::vector<double>& depths_m, const StabilityScheme& scheme,
                                bool with_grid, int threads, const Progress& progress) {
   const std::size_t speeds = revolutions_per_s.size();
-  const auto depths = static_cast<Eigen::Index>(depths_m.size());
+  const Eigen::Index depths = depths_m.size();
   StabilityChart chart;
-  if (with_grid) chart.spectral_radius.resize(depths, static_cast<Eigen::Index>(speeds));
+  if (with_grid) chart.spectral_radius.resize(depths, speeds);
   chart.crossings.resize(speeds);
   chart.error.resize(speeds);
   chart.resolution.resize(speeds);
@@ -147,15 +147,13 @@ StabilityChart stability_chart(const TipStructure& structure, const Cutter& cutt
     chart.error[s] = period.error;
     chart.resolution[s] = period.resolution;
     if (depths_m.back() == 0) {
-      if (with_grid)
-        chart.spectral_radius.col(static_cast<Eigen::Index>(s)).setConstant(spectral_radius(*period.map, 0));
+      if (with_grid) chart.spectral_radius.col(s).setConstant(spectral_radius(*period.map, 0));
       return;
     }
     const DepthScan scan(*period.map, depths_m.back());
     if (with_grid) {
       const std::vector<double> radii = scan.spectral_radii(depths_m);
-      chart.spectral_radius.col(static_cast<Eigen::Index>(s)) =
-          Eigen::Map<const Eigen::VectorXd>(radii.data(), depths);
+      chart.spectral_radius.col(s) = Eigen::Map<const Eigen::VectorXd>(radii.data(), depths);
     }
     for (const StabilityBoundary& boundary : scan.boundaries()) {
       const CriticalMultiplier critical =
@@ -166,7 +164,7 @@ StabilityChart stability_chart(const TipStructure& structure, const Cutter& cutt
           static_cast<int>(critical.chatter_frequency_hz * cutter.tooth_period_s(revolutions_per_s[s]));
       Eigen::Index mode = 0;
       crossing.participation = critical.participation.maxCoeff(&mode);
-      crossing.mode = structure.source[static_cast<std::size_t>(mode)];
+      crossing.mode = structure.source[mode];
       chart.crossings[s].push_back(crossing);
     }
   };

@@ -17,8 +17,8 @@ inline dynamics::ModalModel oscillator(const std::vector<std::string>& dofs) {
     dynamics::Mode mode;
     mode.frequency_hz = 922;
     mode.damping_ratio = 0.011;
-    const auto n = static_cast<Eigen::Index>(dofs.size());
-    mode.psi_r = Eigen::VectorXcd::Unit(n, static_cast<Eigen::Index>(i));
+    const Eigen::Index n = dofs.size();
+    mode.psi_r = Eigen::VectorXcd::Unit(n, i);
     mode.psi_l = mode.psi_r / std::complex<double>(0, 2 * 0.03993 * mode.pole().imag());
     model.modes.push_back(mode);
   }

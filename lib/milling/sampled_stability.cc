@@ -67,7 +67,7 @@ std::vector<SampledCut> sampled_cuts(const dynamics::ModalModel& model, const Cu
       samples.push_back(std::move(sample));
     }
   }
-  samples.resize(static_cast<std::size_t>(count));
+  samples.resize(count);
   return samples;
 }
 
@@ -77,9 +77,7 @@ SampledStability sampled_stability(const std::vector<SampledCut>& samples,
                                    bool with_grid, int threads, const Progress& progress) {
   const std::size_t speeds = revolutions_per_s.size();
   SampledStability result;
-  if (with_grid)
-    result.stable_share =
-        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(depths_m.size()), static_cast<Eigen::Index>(speeds));
+  if (with_grid) result.stable_share = Eigen::MatrixXd::Zero(depths_m.size(), speeds);
   result.limit_95_m.resize(speeds);
   parallel_for(
       speeds, threads,
@@ -95,8 +93,7 @@ SampledStability sampled_stability(const std::vector<SampledCut>& samples,
                 std::find_if(boundaries.begin(), boundaries.end(),
                              [&](const StabilityBoundary& b) { return b.depth_m >= depths_m[i]; });
             // Stable up to the first boundary, and between a second and a third.
-            if ((below - boundaries.begin()) % 2 == 0)
-              result.stable_share(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(s)) += 1;
+            if ((below - boundaries.begin()) % 2 == 0) result.stable_share(i, s) += 1;
           }
         }
         std::sort(limits.begin(), limits.end());

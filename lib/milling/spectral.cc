@@ -82,8 +82,8 @@ Collocation collocate(const TipStructure& structure, const CutSchedule& schedule
     node.drive.rightCols(count) = factors.drive(structure.axes, Eigen::all);
     sense.conservativeResize(sense.rows() + count, Eigen::NoChange);
     sense.bottomRows(count) = factors.sense(Eigen::all, structure.axes);
-    node_of_row.insert(node_of_row.end(), static_cast<std::size_t>(count), result.nodes.size());
-    velocity.insert(velocity.end(), static_cast<std::size_t>(count), of_velocity);
+    node_of_row.insert(node_of_row.end(), count, result.nodes.size());
+    velocity.insert(velocity.end(), count, of_velocity);
   };
   for (const CutPiece& piece : schedule.pieces) {
     const double share_of_longest = (piece.to_rad - piece.from_rad) / longest;
@@ -114,7 +114,7 @@ Collocation collocate(const TipStructure& structure, const CutSchedule& schedule
 
   // What each row is compared with: the same node of the piece that left the surface.
   const Eigen::Index rows = sense.rows();
-  result.left_by.assign(static_cast<std::size_t>(rows), -1);
+  result.left_by.assign(rows, -1);
   result.stored = result.left_by;
   for (std::size_t b = 0; b < pieces.size(); ++b) {
     const TimedPiece& left_by = pieces[schedule.pieces[b].left_by];
@@ -125,7 +125,7 @@ Collocation collocate(const TipStructure& structure, const CutSchedule& schedule
     const Eigen::Index end =
         pieces[b].last_node < result.nodes.size() ? result.nodes[pieces[b].last_node].first_row : rows;
     for (Eigen::Index row = own; row < end; ++row) {
-      const auto at = static_cast<std::size_t>(row);
+      const std::size_t at = row;
       if (velocity[at]) continue;
       result.left_by[at] = other + row - own;
       if (schedule.pieces[b].left_before) result.stored[at] = result.stored_count++;
@@ -144,7 +144,7 @@ Collocation collocate(const TipStructure& structure, const CutSchedule& schedule
     // What the rows sense of the mode, and how they drive it.
     observed = 2.0 * (sense * structure.psi_r.col(k));
     for (Eigen::Index row = 0; row < rows; ++row) {
-      const auto at = static_cast<std::size_t>(row);
+      const std::size_t at = row;
       const Collocation::Node& node = result.nodes[node_of_row[at]];
       driven[row] = node.drive.col(row - node.first_row).transpose() * structure.psi_l.col(k);
       if (velocity[at]) observed[row] *= lambda;
@@ -169,7 +169,7 @@ Collocation collocate(const TipStructure& structure, const CutSchedule& schedule
         const Collocation::Node& node = result.nodes[i];
         if (node.time_s <= source.start_s) continue;
         if (i >= source.first_node && i < source.last_node) {
-          at_node = response.row(static_cast<Eigen::Index>(i - source.first_node));
+          at_node = response.row(i - source.first_node);
         } else if (node.time_s >= source.end_s) {
           at_node = response.row(count) * std::exp(lambda * (node.time_s - source.end_s));
         } else {
@@ -178,16 +178,14 @@ Collocation collocate(const TipStructure& structure, const CutSchedule& schedule
         }
         for (Eigen::Index row = node.first_row; row < node.first_row + node.drive.cols(); ++row) {
           for (Eigen::Index column = first; column < last; ++column) {
-            const auto from =
-                static_cast<Eigen::Index>(node_of_row[static_cast<std::size_t>(column)] - source.first_node);
+            const auto from = static_cast<Eigen::Index>(node_of_row[column] - source.first_node);
             sensed_of_drive(row, column) += (at_node[from] * observed[row] * driven[column]).real();
           }
         }
       }
       const Complex to_final = std::exp(lambda * (period_s - source.end_s));
       for (Eigen::Index column = first; column < last; ++column) {
-        const auto from =
-            static_cast<Eigen::Index>(node_of_row[static_cast<std::size_t>(column)] - source.first_node);
+        const auto from = static_cast<Eigen::Index>(node_of_row[column] - source.first_node);
         const Complex state = to_final * response(count, from) * driven[column];
         result.final_of_drive(k, column) = state.real();
         result.final_of_drive(n + k, column) = state.imag();
@@ -195,8 +193,8 @@ Collocation collocate(const TipStructure& structure, const CutSchedule& schedule
     }
     // A force changes the velocity at once where the modes do not sum to rest.
     for (Eigen::Index row = 0; row < rows; ++row) {
-      if (!velocity[static_cast<std::size_t>(row)]) continue;
-      const Collocation::Node& node = result.nodes[node_of_row[static_cast<std::size_t>(row)]];
+      if (!velocity[row]) continue;
+      const Collocation::Node& node = result.nodes[node_of_row[row]];
       for (Eigen::Index column = node.first_row; column < node.first_row + node.drive.cols(); ++column)
         sensed_of_drive(row, column) += (observed[row] / lambda * driven[column]).real();
     }
@@ -206,8 +204,8 @@ Collocation collocate(const TipStructure& structure, const CutSchedule& schedule
   result.difference_of_state = sensed_of_state;
   result.difference_of_drive = sensed_of_drive;
   for (Eigen::Index row = 0; row < rows; ++row) {
-    const Eigen::Index left_by = result.left_by[static_cast<std::size_t>(row)];
-    if (left_by < 0 || result.stored[static_cast<std::size_t>(row)] >= 0) continue;
+    const Eigen::Index left_by = result.left_by[row];
+    if (left_by < 0 || result.stored[row] >= 0) continue;
     result.difference_of_state.row(row) -= sensed_of_state.row(left_by);
     result.difference_of_drive.row(row) -= sensed_of_drive.row(left_by);
   }
@@ -225,8 +223,7 @@ Eigen::MatrixXd differences(const Collocation& c, double depth_m, double scale) 
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows, states + c.stored_count);
   result.leftCols(states) = c.difference_of_state / scale;
   for (Eigen::Index row = 0; row < rows; ++row) {
-    if (const Eigen::Index stored = c.stored[static_cast<std::size_t>(row)]; stored >= 0)
-      result(row, states + stored) = -1;
+    if (const Eigen::Index stored = c.stored[row]; stored >= 0) result(row, states + stored) = -1;
   }
   return implicit.solve(result);
 }
@@ -243,11 +240,11 @@ Eigen::MatrixXd monodromy_of(const Collocation& c, double depth_m, double scale)
     auto target = map.row(states + c.stored[at]);
     Eigen::Index row = c.left_by[at];
     target = difference.row(row);
-    while (c.stored[static_cast<std::size_t>(row)] < 0) {
-      row = c.left_by[static_cast<std::size_t>(row)];
+    while (c.stored[row] < 0) {
+      row = c.left_by[row];
       target += difference.row(row);
     }
-    target[states + c.stored[static_cast<std::size_t>(row)]] += 1;
+    target[states + c.stored[row]] += 1;
   }
   return map;
 }

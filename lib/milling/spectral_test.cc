@@ -61,7 +61,7 @@ TEST_CASE("unequal pitch with equal pitches is the plain case") {
     for (const double depth : {0.3e-3, 1.5e-3}) {
       cutter.pitch_rad.clear();
       const double plain = spectral_radius(SpectralMap(structure, cutter, 150, 24), depth);
-      cutter.pitch_rad.assign(static_cast<std::size_t>(teeth), kTwoPi / teeth);
+      cutter.pitch_rad.assign(teeth, kTwoPi / teeth);
       const double by_tooth = spectral_radius(SpectralMap(structure, cutter, 150, 24), depth);
       INFO(teeth << " teeth, immersion " << immersion << ", depth " << depth);
       CHECK(by_tooth == Approx(plain).epsilon(1e-10));
@@ -80,7 +80,7 @@ TEST_CASE("helix: a slight one is the plain case, and pitches by tooth are the p
       cutter.lag_rad_per_m = lag_at_depth / 2e-3;
       cutter.pitch_rad.clear();
       const double helical = spectral_radius(SpectralMap(structure, cutter, 130, 30), 2e-3);
-      cutter.pitch_rad.assign(static_cast<std::size_t>(teeth), kTwoPi / teeth);
+      cutter.pitch_rad.assign(teeth, kTwoPi / teeth);
       CHECK(spectral_radius(SpectralMap(structure, cutter, 130, 30), 2e-3) == Approx(helical).epsilon(1e-9));
     }
   }
@@ -162,7 +162,7 @@ TEST_CASE("unequal pitch: it converges, and to the growth of a plain simulation"
         const double phi = std::remainder(kTwoPi * (step + 0.5) / kSteps - behind, kTwoPi);
         behind += cutter.pitch_rad[j];
         if (!(phi > cutter.entry_rad && phi < cutter.exit_rad)) continue;
-        const auto delay = static_cast<std::size_t>(std::lround(pitch / kTwoPi * kSteps));
+        const std::size_t delay = std::lround(pitch / kTwoPi * kSteps);
         const Eigen::Vector2d before =
             path.size() > delay ? path[path.size() - 1 - delay] : Eigen::Vector2d(0, 0);
         const double s = std::sin(phi), c = std::cos(phi);

@@ -63,12 +63,12 @@ TipStructure tip_structure(const dynamics::ModalModel& model) {
       structure.source.push_back(k);
     }
   }
-  const auto n = static_cast<Eigen::Index>(kept.size());
+  const Eigen::Index n = kept.size();
   structure.lambda.resize(n);
   structure.psi_r.resize(structure.directions(), n);
   structure.psi_l.resize(structure.directions(), n);
   for (Eigen::Index k = 0; k < n; ++k) {
-    const dynamics::Mode& mode = kept[static_cast<std::size_t>(k)];
+    const dynamics::Mode& mode = kept[k];
     structure.lambda[k] = mode.pole();
     structure.psi_r.col(k) = mode.psi_r;
     structure.psi_l.col(k) = mode.psi_l;

@@ -19,7 +19,7 @@ struct TipStructure {
   double displacement_scale_m = 1;  ///< a displacement of this size is comparable to a state of size 1
 
   Eigen::Index modes() const { return lambda.size(); }
-  Eigen::Index directions() const { return static_cast<Eigen::Index>(axes.size()); }
+  Eigen::Index directions() const { return axes.size(); }
 
   /// Tip displacement [directions x 2 modes] of the real state (Re q, Im q), m.
   Eigen::MatrixXd displacement_of_state() const;

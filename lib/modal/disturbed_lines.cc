@@ -21,22 +21,22 @@ constexpr double kRounding = 1e-13;
 class DisturbedLines {
  public:
   DisturbedLines(const Eigen::VectorXd& hz, const Eigen::VectorXcd& h, const Eigen::VectorXd& variance)
-      : hz_(hz), h_(h), variance_(variance), out_(static_cast<std::size_t>(hz.size()), false) {}
+      : hz_(hz), h_(h), variance_(variance), out_(hz.size(), false) {}
 
   // The others may only stand out because of the one that does most.
   std::vector<Eigen::Index> find() {
     std::vector<double> standing(out_.size(), 0.0);
-    for (Eigen::Index i = 0; i < h_.size(); ++i) standing[static_cast<std::size_t>(i)] = outstanding(i);
+    for (Eigen::Index i = 0; i < h_.size(); ++i) standing[i] = outstanding(i);
     std::vector<Eigen::Index> lines;
     for (;;) {
       const auto most = std::max_element(standing.begin(), standing.end());
       if (most == standing.end() || *most < kOutstanding) return lines;
       const Eigen::Index at = most - standing.begin();
       lines.push_back(at);
-      out_[static_cast<std::size_t>(at)] = true;
+      out_[at] = true;
       const Eigen::Index last = std::min(at + kReach, h_.size() - 1);
       for (Eigen::Index i = std::max<Eigen::Index>(at - kReach, 0); i <= last; ++i)
-        standing[static_cast<std::size_t>(i)] = outstanding(i);
+        standing[i] = outstanding(i);
     }
   }
 
@@ -49,7 +49,7 @@ class DisturbedLines {
       const std::size_t wanted = filled + N / 2;
       for (Eigen::Index i = at + step; filled < wanted; i += step) {
         if (i < 0 || i >= h_.size() || std::abs(i - at) > kReach) return false;
-        if (!out_[static_cast<std::size_t>(i)]) lines[filled++] = i;
+        if (!out_[i]) lines[filled++] = i;
       }
     }
     return true;
@@ -87,7 +87,7 @@ class DisturbedLines {
     Eigen::Matrix<Complex, 2 * kFar, 1> values;
     const double scale = hz_[others.back()] - hz_[others.front()];
     for (Eigen::Index r = 0; r < design.rows(); ++r) {
-      const Eigen::Index i = others[static_cast<std::size_t>(r)];
+      const Eigen::Index i = others[r];
       const double x = (hz_[i] - hz_[at]) / scale;
       values[r] = h_[i];
       design.row(r) << 1, x, x * x, -x * h_[i];
@@ -105,7 +105,7 @@ class DisturbedLines {
   double outstanding(Eigen::Index at) const {
     std::array<Eigen::Index, 2 * kNear> near{};
     std::array<Eigen::Index, 2 * kFar> far{};
-    if (out_[static_cast<std::size_t>(at)] || !neighbours(at, near)) return 0;
+    if (out_[at] || !neighbours(at, near)) return 0;
     const double by_cubic = from_cubic(at, near);
     // Only few lines need the dearer model.
     if (by_cubic < kOutstanding || !neighbours(at, far)) return 0;

@@ -126,7 +126,7 @@ Searches search_groups(const std::vector<Group>& groups, const Progress& progres
     // A round tool in a round spindle: the same numbers in y as in x need no second fit.
     const auto same = std::find_if(groups.begin(), groups.begin() + static_cast<std::ptrdiff_t>(g),
                                    [&](const Group& other) { return alike(other, groups[g]); });
-    const auto at = static_cast<std::size_t>(same - groups.begin());
+    const std::size_t at = same - groups.begin();
     if (at < g) {
       searches.push_back(searches[at]);
       continue;
@@ -199,11 +199,11 @@ void add_table(const FittedTable& table, const std::vector<std::string>& directi
   for (std::size_t k = 0; k < table.modes.size(); ++k) {
     const dynamics::Mode& mode = table.modes[k];
     dynamics::Mode added = mode;
-    added.psi_r = added.psi_l = Eigen::VectorXcd::Zero(static_cast<Eigen::Index>(model.dofs.size()));
+    added.psi_r = added.psi_l = Eigen::VectorXcd::Zero(model.dofs.size());
     const Eigen::Index first = before + static_cast<Eigen::Index>(k) * whole;
     for (Eigen::Index p = 0; p < own; ++p) at.push_back(first + p);
     for (std::size_t i = 0; i < directions.size(); ++i) {
-      const auto from = static_cast<Eigen::Index>(i);
+      const Eigen::Index from = i;
       const Eigen::Index to = model.dof(directions[i]);
       added.psi_r[to] = mode.psi_r[from];
       added.psi_l[to] = mode.psi_l[from];
@@ -220,8 +220,7 @@ void add_table(const FittedTable& table, const std::vector<std::string>& directi
   model.covariance.conservativeResizeLike(Eigen::MatrixXd::Zero(size, size));
   for (std::size_t i = 0; i < at.size(); ++i) {
     for (std::size_t j = 0; j < at.size(); ++j) {
-      model.covariance(at[i], at[j]) =
-          inflation * table.covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      model.covariance(at[i], at[j]) = inflation * table.covariance(i, j);
     }
   }
 }
@@ -276,8 +275,7 @@ ModalFit fit_modes(const dynamics::FrequencyResponse& measured, const FitOptions
       const Eigen::VectorXcd error = curve_of(part.result().modes, curve, part.data().s) - curve.h;
       error_square += error.squaredNorm();
       square += curve.h.squaredNorm();
-      fit.curves.push_back({groups[g].directions[static_cast<std::size_t>(curve.response)],
-                            groups[g].directions[static_cast<std::size_t>(curve.reference)],
+      fit.curves.push_back({groups[g].directions[curve.response], groups[g].directions[curve.reference],
                             curve.h.isZero(0) ? 0.0 : error.norm() / curve.h.norm(),
                             error.cwiseAbs2().dot(curve.weight) / static_cast<double>(error.size())});
     }

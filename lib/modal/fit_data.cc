@@ -6,7 +6,7 @@
 namespace stablecut::modal {
 
 std::vector<std::size_t> FitData::vector_parts() const {
-  constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  constexpr std::size_t kNone = -1;
   std::vector<std::size_t> part(curves.size(), kNone);
   std::size_t parts = 0;
   for (std::size_t first = 0; first < curves.size(); ++first) {
@@ -32,7 +32,7 @@ std::vector<std::size_t> FitData::vector_parts() const {
 std::vector<DirectionGroup> independent_groups(const dynamics::FrequencyResponse& frf) {
   const std::vector<std::string> names = direction_names(frf);
   const auto index = [&](const std::string& name) {
-    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+    return std::find(names.begin(), names.end(), name) - names.begin();
   };
   // Union of direction labels over the entries that are not zero.
   std::vector<std::size_t> label(names.size());
@@ -52,7 +52,7 @@ std::vector<DirectionGroup> independent_groups(const dynamics::FrequencyResponse
       group_label.push_back(wanted);
       groups.push_back({{e}});
     } else {
-      groups[static_cast<std::size_t>(found - group_label.begin())].entries.push_back(e);
+      groups[found - group_label.begin()].entries.push_back(e);
     }
   }
   // Zeros between directions of one group are data.
@@ -61,7 +61,7 @@ std::vector<DirectionGroup> independent_groups(const dynamics::FrequencyResponse
                       to = label[index(frf.entries[e].reference)];
     const auto found = std::find(group_label.begin(), group_label.end(), from);
     if (!frf.entries[e].h.isZero(0) || from != to || found == group_label.end()) continue;
-    groups[static_cast<std::size_t>(found - group_label.begin())].entries.push_back(e);
+    groups[found - group_label.begin()].entries.push_back(e);
   }
   return groups;
 }

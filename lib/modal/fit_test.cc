@@ -56,7 +56,7 @@ TEST_CASE("the modes are found without a hint, with and without a known variance
       REQUIRE(fit.model.modes.size() == truth.modes.size());
       for (std::size_t k = 0; k < truth.modes.size(); ++k) {
         const dynamics::Mode& mode = fit.model.modes[k];
-        const Eigen::VectorXd deviation = fit.model.deviation(static_cast<Eigen::Index>(k));
+        const Eigen::VectorXd deviation = fit.model.deviation(k);
         // 12 values in 6 runs: four standard deviations are passed once in 200.
         CHECK(std::abs(mode.frequency_hz - truth.modes[k].frequency_hz) < 4.5 * deviation[0]);
         CHECK(std::abs(mode.damping_ratio - truth.modes[k].damping_ratio) < 4.5 * deviation[1]);
@@ -201,7 +201,7 @@ TEST_CASE("equal numbers in x and y are fitted once, to the same as each alone")
   REQUIRE(both.model.modes.size() == 2 * alone.model.modes.size());
   for (std::size_t k = 0; k < both.model.modes.size(); ++k) {
     CHECK(both.model.modes[k].frequency_hz == alone.model.modes[k / 2].frequency_hz);
-    CHECK(both.model.modes[k].psi_r[static_cast<Eigen::Index>(k % 2)] == alone.model.modes[k / 2].psi_r[0]);
+    CHECK(both.model.modes[k].psi_r[k % 2] == alone.model.modes[k / 2].psi_r[0]);
   }
 }
 
@@ -247,7 +247,7 @@ TEST_CASE("every number of the table lies within its deviations") {
   double square = 0;
   for (std::size_t k = 0; k < truth.modes.size(); ++k) {
     const dynamics::Mode expected = dynamics::normalised(truth.modes[k]);
-    const Eigen::VectorXd deviation = fit.model.deviation(static_cast<Eigen::Index>(k));
+    const Eigen::VectorXd deviation = fit.model.deviation(k);
     for (Eigen::Index i = 0; i < 2; ++i) {
       const Complex right = fit.model.modes[k].psi_r[i] - expected.psi_r[i],
                     left = fit.model.modes[k].psi_l[i] - expected.psi_l[i];

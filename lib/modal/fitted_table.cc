@@ -13,10 +13,10 @@ using Complex = std::complex<double>;
 struct Seen {
   std::vector<bool> right, left;
 
-  explicit Seen(const FitData& data) : right(static_cast<std::size_t>(data.dofs)), left(right.size()) {
+  explicit Seen(const FitData& data) : right(data.dofs), left(right.size()) {
     for (const Curve& curve : data.curves) {
-      right[static_cast<std::size_t>(curve.response)] = true;
-      left[static_cast<std::size_t>(curve.reference)] = true;
+      right[curve.response] = true;
+      left[curve.reference] = true;
     }
   }
   bool all() const {
@@ -30,7 +30,7 @@ Eigen::Index known_direction(const Seen& seen, const dynamics::Mode& mode) {
   Eigen::Index best = -1;
   double largest = 0;
   for (std::size_t i = 0; i < seen.right.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
+    const Eigen::Index at = i;
     const double size = std::abs(mode.psi_r[at] * mode.psi_l[at]);
     if (!seen.right[i] || !seen.left[i] || size <= largest) continue;
     largest = size;
@@ -51,7 +51,7 @@ Eigen::MatrixXd complete_by_reciprocity(const Seen& seen, const ModeParameters& 
     return (Eigen::Matrix2d() << f.real(), -f.imag(), f.imag(), f.real()).finished();
   };
   for (Eigen::Index i = 0; i < mode.psi_r.size(); ++i) {
-    const bool right = seen.right[static_cast<std::size_t>(i)], left = seen.left[static_cast<std::size_t>(i)];
+    const bool right = seen.right[i], left = seen.left[i];
     if (right && left) continue;
     // value = source * factor, where the factor is the ratio or its inverse.
     const Eigen::Index to = right ? parameters.left_at(i) : parameters.right_at(i);
@@ -84,12 +84,12 @@ FittedTable fitted_table(const FitData& data, const std::vector<dynamics::Mode>&
   Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(parameters.modes() * size, parameters.size());
   const std::vector<dynamics::Mode> fitted = parameters.unpack(x);
   for (Eigen::Index k = 0; k < parameters.modes(); ++k) {
-    dynamics::Mode mode = fitted[static_cast<std::size_t>(k)];
+    dynamics::Mode mode = fitted[k];
     const Eigen::MatrixXd completion = complete_by_reciprocity(seen, parameters, mode);
     slope.block(k * size, parameters.pole_at(k), size, parameters.per_mode()) =
         dynamics::normalisation_slope(mode) * completion * parameters.slope(x, k);
     table.modes.push_back(dynamics::normalised(mode));
-    table.modes.back().out_of_band = modes[static_cast<std::size_t>(k)].out_of_band;
+    table.modes.back().out_of_band = modes[k].out_of_band;
   }
   // The weights are 1 / E|error|^2 of the complex value, so each part has half of that variance.
   const Likelihood likelihood(data, parameters, out_of_band(data, modes));

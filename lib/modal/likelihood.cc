@@ -33,7 +33,7 @@ std::vector<Direction> curve_directions(const ModeParameters& parameters, const 
                                         const Eigen::VectorXcd& residue) {
   std::vector<Direction> directions;
   for (Eigen::Index k = 0; k < parameters.modes(); ++k) {
-    const dynamics::Mode& mode = modes[static_cast<std::size_t>(k)];
+    const dynamics::Mode& mode = modes[k];
     const Eigen::Index first = k * parameters.coordinates_per_mode();
     directions.push_back({first, 2 * k + 1, residue[k]});
     directions.push_back({first + parameters.right_at(curve.response), 2 * k, mode.psi_l[curve.reference]});
@@ -88,12 +88,11 @@ NormalEquations to_parameters(const ModeParameters& parameters, const Eigen::Ref
   std::vector<Eigen::MatrixXd> slope;
   for (Eigen::Index k = 0; k < parameters.modes(); ++k) slope.push_back(parameters.slope(x, k));
   for (Eigen::Index k = 0; k < parameters.modes(); ++k) {
-    const Eigen::MatrixXd left = slope[static_cast<std::size_t>(k)].transpose();
+    const Eigen::MatrixXd left = slope[k].transpose();
     result.gradient.segment(k * to, to) = left * coordinates.gradient.segment(k * from, from);
     const Eigen::MatrixXd rows = left * coordinates.matrix.middleRows(k * from, from);
     for (Eigen::Index j = 0; j < parameters.modes(); ++j) {
-      result.matrix.block(k * to, j * to, to, to) =
-          rows.middleCols(j * from, from) * slope[static_cast<std::size_t>(j)];
+      result.matrix.block(k * to, j * to, to, to) = rows.middleCols(j * from, from) * slope[j];
     }
   }
   return result;
@@ -125,11 +124,11 @@ NormalEquations Likelihood::evaluate(const Eigen::Ref<const Eigen::VectorXd>& x,
   const std::vector<dynamics::Mode> modes = parameters_.unpack(x);
   Eigen::VectorXcd poles(parameters_.modes());
   for (Eigen::Index k = 0; k < poles.size(); ++k) poles[k] = parameters_.pole(x, k);
-  Eigen::MatrixXcd residue(poles.size(), static_cast<Eigen::Index>(data_.curves.size()));
+  Eigen::MatrixXcd residue(poles.size(), data_.curves.size());
   for (Eigen::Index c = 0; c < residue.cols(); ++c) {
-    const Curve& curve = data_.curves[static_cast<std::size_t>(c)];
+    const Curve& curve = data_.curves[c];
     for (Eigen::Index k = 0; k < poles.size(); ++k) {
-      const dynamics::Mode& mode = modes[static_cast<std::size_t>(k)];
+      const dynamics::Mode& mode = modes[k];
       residue(k, c) = mode.psi_r[curve.response] * mode.psi_l[curve.reference];
     }
   }
@@ -139,7 +138,7 @@ NormalEquations Likelihood::evaluate(const Eigen::Ref<const Eigen::VectorXd>& x,
     PoleGrams grams(poles);
     for (std::size_t c = 0; c < curve_sums.size(); ++c) {
       const std::vector<Direction> directions =
-          curve_directions(parameters_, data_.curves[c], modes, residue.col(static_cast<Eigen::Index>(c)));
+          curve_directions(parameters_, data_.curves[c], modes, residue.col(c));
       grams.evaluate(curve_sums[c].weight, curve_sums[c].weight_squared);
       add_gradient(directions, curve_sums[c], sums.gradient);
       add_matrix(directions, grams, sums.matrix);
@@ -163,7 +162,7 @@ void Likelihood::add_priors(const Eigen::Ref<const Eigen::VectorXd>& x, bool wit
     result.matrix(at, at) += 1 / (2 * deviation * deviation);
   };
   for (Eigen::Index k = 0; k < parameters_.modes(); ++k) {
-    if (!out_of_band_[static_cast<std::size_t>(k)]) continue;
+    if (!out_of_band_[k]) continue;
     const Eigen::Index at = parameters_.pole_at(k);
     add(at, std::log(kResidualDamping), kResidualDampingDeviation);
     const bool above = x[at + 1] > std::log(hi);

@@ -38,10 +38,10 @@ TEST_CASE("from a start nearby, exact data give the modes back") {
 TEST_CASE("standard deviations are the Cramer-Rao bound") {
   const dynamics::ModalModel truth = fixtures::close_pair();
   const FitData data = fixtures::data_of(truth, 1e-2);
-  const auto count = static_cast<Eigen::Index>(truth.modes.size());
+  const Eigen::Index count = truth.modes.size();
   const auto nudged = [&](Eigen::Index parameter, double step) {
     std::vector<dynamics::Mode> modes = truth.modes;
-    dynamics::Mode& mode = modes[static_cast<std::size_t>(parameter / 8)];
+    dynamics::Mode& mode = modes[parameter / 8];
     const Eigen::Index which = parameter % 8;
     const Complex direction = which % 2 == 0 ? Complex(step, 0) : Complex(0, step);
     if (which == 0)
@@ -72,7 +72,7 @@ TEST_CASE("standard deviations are the Cramer-Rao bound") {
   const Eigen::MatrixXd covariance = (jacobian.transpose() * jacobian).inverse();
   const Eigen::MatrixXd table = fitted_table(data, truth.modes, ModeModel::kNonsymmetric).covariance;
   for (Eigen::Index k = 0; k < count; ++k) {
-    const dynamics::Mode& mode = truth.modes[static_cast<std::size_t>(k)];
+    const dynamics::Mode& mode = truth.modes[k];
     CHECK(std::sqrt(table(10 * k, 10 * k)) ==
           Approx(mode.frequency_hz * std::sqrt(covariance(8 * k, 8 * k))).epsilon(1e-4));
     CHECK(std::sqrt(table(10 * k + 1, 10 * k + 1)) ==

@@ -61,8 +61,7 @@ dynamics::Mode rank_one_mode(const FitData& data, Complex pole, const Eigen::Row
   for (std::size_t p = 0; std::find(part.begin(), part.end(), p) != part.end(); ++p) {
     Eigen::MatrixXcd matrix = Eigen::MatrixXcd::Zero(data.dofs, data.dofs);
     for (std::size_t e = 0; e < data.curves.size(); ++e) {
-      if (part[e] == p)
-        matrix(data.curves[e].response, data.curves[e].reference) = residue[static_cast<Eigen::Index>(e)];
+      if (part[e] == p) matrix(data.curves[e].response, data.curves[e].reference) = residue[e];
     }
     const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(matrix, Eigen::ComputeThinU | Eigen::ComputeThinV);
     mode.psi_r += svd.matrixU().col(0);
@@ -104,7 +103,7 @@ dynamics::Mode best_addition(const FitData& data, const std::vector<dynamics::Mo
           std::upper_bound(omega.begin(), omega.end(), pole.imag() + reach) - omega.begin();
       const Eigen::Index count = (last - first + numerics::kLanes - 1) / numerics::kLanes * numerics::kLanes;
       if (count <= 0) continue;
-      Eigen::RowVectorXcd residue(static_cast<Eigen::Index>(residual.size()));
+      Eigen::RowVectorXcd residue(residual.size());
       double gain = 0;
       for (std::size_t e = 0; e < residual.size(); ++e) {
         const PairSums sums = pair_sums(&omega[first], &residual[e].weight[first], &residual[e].re[first],
@@ -113,7 +112,7 @@ dynamics::Mode best_addition(const FitData& data, const std::vector<dynamics::Mo
             (Eigen::Matrix2d() << sums.own_own, sums.own_other, sums.own_other, sums.other_other).finished();
         const Eigen::Vector2d projection(sums.own_residual, sums.other_residual);
         const Eigen::Vector2d parts = gram.inverse() * projection;
-        residue[static_cast<Eigen::Index>(e)] = {parts[0], parts[1]};
+        residue[e] = {parts[0], parts[1]};
         if (parts.allFinite()) gain += parts.dot(projection);
       }
       if (gain > best_gain && residue.allFinite()) {

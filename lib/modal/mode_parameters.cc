@@ -44,7 +44,7 @@ Eigen::Index ModeParameters::per_mode(ModeModel model, Eigen::Index dofs) {
 }
 
 Eigen::Index ModeParameters::right_offset(Eigen::Index k, Eigen::Index i) const {
-  return 2 * (i < pivot_[static_cast<std::size_t>(k)] ? i : i - 1);
+  return 2 * (i < pivot_[k] ? i : i - 1);
 }
 
 Eigen::VectorXd ModeParameters::pack(const std::vector<dynamics::Mode>& modes) const {
@@ -54,14 +54,14 @@ Eigen::VectorXd ModeParameters::pack(const std::vector<dynamics::Mode>& modes) c
     x[at + 1] = value.imag();
   };
   for (Eigen::Index k = 0; k < this->modes(); ++k) {
-    const dynamics::Mode& mode = modes[static_cast<std::size_t>(k)];
+    const dynamics::Mode& mode = modes[k];
     const Complex lambda = mode.pole();
-    const double unit = unit_[static_cast<std::size_t>(k)];
+    const double unit = unit_[k];
     x[pole_at(k)] = std::log(-lambda.real() / lambda.imag());
     x[pole_at(k) + 1] = std::log(lambda.imag());
     const Eigen::Index first = vectors_at(k);
     if (model_ == ModeModel::kNonsymmetric) {
-      const Eigen::Index pivot = pivot_[static_cast<std::size_t>(k)];
+      const Eigen::Index pivot = pivot_[k];
       const Complex scale = mode.psi_r[pivot];
       for (Eigen::Index i = 0; i < dofs_; ++i) {
         if (i != pivot) put(first + right_offset(k, i), mode.psi_r[i] / scale);
@@ -87,17 +87,17 @@ Eigen::VectorXd ModeParameters::pack(const std::vector<dynamics::Mode>& modes) c
 std::vector<dynamics::Mode> ModeParameters::unpack(const Eigen::Ref<const Eigen::VectorXd>& x) const {
   std::vector<dynamics::Mode> modes(pivot_.size());
   for (Eigen::Index k = 0; k < this->modes(); ++k) {
-    dynamics::Mode& mode = modes[static_cast<std::size_t>(k)];
+    dynamics::Mode& mode = modes[k];
     dynamics::set_pole(mode, pole(x, k));
     mode.psi_r = Eigen::VectorXcd::Ones(dofs_);
     mode.psi_l.resize(dofs_);
     const Eigen::Index first = vectors_at(k);
-    const double unit = unit_[static_cast<std::size_t>(k)];
+    const double unit = unit_[k];
     for (Eigen::Index i = 0; i < dofs_; ++i) {
       const auto complex_at = [&](Eigen::Index at) { return Complex(x[first + at], x[first + at + 1]); };
       switch (model_) {
         case ModeModel::kNonsymmetric:
-          if (i != pivot_[static_cast<std::size_t>(k)]) mode.psi_r[i] = complex_at(right_offset(k, i));
+          if (i != pivot_[k]) mode.psi_r[i] = complex_at(right_offset(k, i));
           mode.psi_l[i] = unit * complex_at(2 * (dofs_ - 1) + 2 * i);
           break;
         case ModeModel::kSymmetric:
@@ -118,7 +118,7 @@ Complex ModeParameters::pole(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::
 Eigen::MatrixXd ModeParameters::slope(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Index k) const {
   Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(coordinates_per_mode(), per_mode());
   const Complex lambda = pole(x, k);
-  const double unit = unit_[static_cast<std::size_t>(k)];
+  const double unit = unit_[k];
   const Eigen::Matrix2d units = unit * Eigen::Matrix2d::Identity();
   slope.topLeftCorner<2, 2>() << lambda.real(), lambda.real(), 0, lambda.imag();
   const auto put = [&](Eigen::Index row, Eigen::Index column, Complex value) {
@@ -128,8 +128,7 @@ Eigen::MatrixXd ModeParameters::slope(const Eigen::Ref<const Eigen::VectorXd>& x
   for (Eigen::Index i = 0; i < dofs_; ++i) {
     switch (model_) {
       case ModeModel::kNonsymmetric:
-        if (i != pivot_[static_cast<std::size_t>(k)])
-          slope.block<2, 2>(right_at(i), 2 + right_offset(k, i)).setIdentity();
+        if (i != pivot_[k]) slope.block<2, 2>(right_at(i), 2 + right_offset(k, i)).setIdentity();
         slope.block<2, 2>(left_at(i), 2 * dofs_ + 2 * i) = units;
         break;
       case ModeModel::kSymmetric:

@@ -26,7 +26,7 @@ class ModeParameters {
   /// For modes like these (pivots and units are theirs), each with `dofs` directions.
   ModeParameters(const std::vector<dynamics::Mode>& modes, Eigen::Index dofs, ModeModel model);
 
-  Eigen::Index modes() const { return static_cast<Eigen::Index>(pivot_.size()); }
+  Eigen::Index modes() const { return pivot_.size(); }
   /// Free parameters, and those of one mode.
   Eigen::Index size() const { return modes() * per_mode(); }
   Eigen::Index per_mode() const { return per_mode(model_, dofs_); }

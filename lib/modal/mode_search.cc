@@ -247,10 +247,10 @@ double ModeSearch::relative_error(const std::vector<dynamics::Mode>& modes) cons
 // ---- the price of a mode ----
 
 double ModeSearch::parameters_per_mode() const {
-  std::vector<bool> right(static_cast<std::size_t>(data_.dofs)), left(right.size());
+  std::vector<bool> right(data_.dofs), left(right.size());
   for (const Curve& curve : data_.curves) {
-    right[static_cast<std::size_t>(curve.response)] = true;
-    left[static_cast<std::size_t>(curve.reference)] = true;
+    right[curve.response] = true;
+    left[curve.reference] = true;
   }
   const auto hidden =
       std::count(right.begin(), right.end(), false) + std::count(left.begin(), left.end(), false);
@@ -302,7 +302,7 @@ Eigen::VectorXcd ModeSearch::find_poles(Eigen::Index pairs) const {
     const LinearResidues linear = linear_residues(data_, poles);
     const double spread = std::max(1.0, linear.chi_square / complex_values());
     const double least = spread * static_cast<double>(2 * data_.curves.size()) * std::log(data_.values());
-    std::vector<Eigen::Index> order(static_cast<std::size_t>(poles.size()));
+    std::vector<Eigen::Index> order(poles.size());
     std::iota(order.begin(), order.end(), Eigen::Index{0});
     std::sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
       return linear.removal_loss[a] < linear.removal_loss[b];
@@ -350,14 +350,13 @@ void ModeSearch::try_rigid_body() {
     if (std::abs(pole) > kRigidReach * lo && mode.damping_ratio < kRigidDamping) kept.push_back(pole);
   }
   const std::size_t dropped = current_.modes.size() - kept.size();
-  const auto bodies = static_cast<std::size_t>(data_.dofs);
+  const std::size_t bodies = data_.dofs;
   if (dropped <= bodies) return;
   for (const double place : kRigidPlaces) {
-    Eigen::VectorXcd poles(static_cast<Eigen::Index>(kept.size() + bodies));
+    Eigen::VectorXcd poles(kept.size() + bodies);
     std::copy(kept.begin(), kept.end(), poles.begin());
     for (std::size_t d = 0; d < bodies; ++d)
-      poles[static_cast<Eigen::Index>(kept.size() + d)] =
-          place * (1 + 0.1 * static_cast<double>(d)) * lo * Complex(-0.05, 1);
+      poles[kept.size() + d] = place * (1 + 0.1 * static_cast<double>(d)) * lo * Complex(-0.05, 1);
     const RefinedModes trial = refined(modes_at(poles), kFirst);
     const double saved = static_cast<double>(dropped - bodies) * price(trial, trial);
     if (trial.chi_square < current_.chi_square + saved) {

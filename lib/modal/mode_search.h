@@ -69,7 +69,7 @@ class ModeSearch {
   void remove_modes();
   bool remove_if_worthless(std::size_t k);
   bool add_mode();
-  double loss(std::size_t k) const { return current_.removal_loss[static_cast<Eigen::Index>(k)]; }
+  double loss(std::size_t k) const { return current_.removal_loss[k]; }
   bool is_too_narrow(const dynamics::Mode& mode) const;
 
   FitData data_;

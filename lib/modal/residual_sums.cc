@@ -79,13 +79,13 @@ STABLECUT_WIDE void add_sums(const double* phi_re, const double* phi_im, const d
 
 }  // namespace
 
-ResidualSums::ResidualSums(const FitData& data) : curves_(static_cast<Eigen::Index>(data.curves.size())) {
+ResidualSums::ResidualSums(const FitData& data) : curves_(data.curves.size()) {
   const Eigen::Index lines = (data.lines() + numerics::kLanes - 1) / numerics::kLanes * numerics::kLanes;
   omega_ = Eigen::ArrayXd::Zero(lines);
   omega_.head(data.lines()) = data.s.imag();
   weight_ = h_re_ = h_im_ = Eigen::ArrayXXd::Zero(lines, curves_);
   for (Eigen::Index c = 0; c < curves_; ++c) {
-    const Curve& curve = data.curves[static_cast<std::size_t>(c)];
+    const Curve& curve = data.curves[c];
     weight_.col(c).head(data.lines()) = curve.weight;
     h_re_.col(c).head(data.lines()) = curve.h.real();
     h_im_.col(c).head(data.lines()) = curve.h.imag();

@@ -51,7 +51,7 @@ std::vector<StabilizationOrder> stabilization(const std::vector<FitData>& groups
   // More pairs than lines can tell apart have no least squares.
   for (const FitData& data : groups) highest = std::min(highest, static_cast<int>(data.lines() / 3));
   const int count = std::max(0, highest - kLeastPairs + 1);
-  const auto orders = static_cast<std::size_t>(count);
+  const std::size_t orders = count;
   std::vector<StabilizationOrder> result(orders);
   std::vector<std::vector<StabilizationPole>> found(orders * groups.size());
   // The dear ones first.
@@ -80,9 +80,9 @@ std::vector<StabilizationOrder> stabilization(const std::vector<FitData>& groups
 Eigen::MatrixXd mode_indicator(const dynamics::FrequencyResponse& frf) {
   const std::vector<std::string> names = direction_names(frf);
   const auto index = [&](const std::string& name) {
-    return static_cast<Eigen::Index>(std::find(names.begin(), names.end(), name) - names.begin());
+    return std::find(names.begin(), names.end(), name) - names.begin();
   };
-  const auto count = static_cast<Eigen::Index>(names.size());
+  const Eigen::Index count = names.size();
   Eigen::MatrixXd values(frf.frequency_hz.size(), count);
   for (Eigen::Index line = 0; line < values.rows(); ++line) {
     Eigen::MatrixXcd h = Eigen::MatrixXcd::Zero(count, count);

@@ -112,11 +112,11 @@ Eigen::VectorXcd starting_poles(const FitData& data, Eigen::Index pairs) {
   frequency.push_back(lo / 2);
   frequency.push_back(hi * 1.5);
   std::sort(frequency.begin(), frequency.end());
-  Eigen::VectorXcd poles(static_cast<Eigen::Index>(frequency.size()));
+  Eigen::VectorXcd poles(frequency.size());
   double last = 0;
   for (Eigen::Index k = 0; k < poles.size(); ++k) {
     // No two alike: a repeated pole makes the basis singular.
-    double omega = std::max(frequency[static_cast<std::size_t>(k)], last * (1 + 1e-3));
+    double omega = std::max(frequency[k], last * (1 + 1e-3));
     if (omega <= 0) omega = hi * 1e-4;
     poles[k] = Complex(-kStartDamping * omega, omega);
     last = omega;
@@ -186,14 +186,14 @@ Eigen::VectorXcd relocate_poles(const FitData& data, const Eigen::VectorXcd& pol
   const double least_decay = 1e-6 * std::abs(data.s[data.lines() - 1]);
   for (Complex& pole : result) pole = {std::min(pole.real(), -least_decay), pole.imag()};
   std::sort(result.begin(), result.end(), [](Complex a, Complex b) { return std::abs(a) < std::abs(b); });
-  return Eigen::Map<Eigen::VectorXcd>(result.data(), static_cast<Eigen::Index>(result.size()));
+  return Eigen::Map<Eigen::VectorXcd>(result.data(), result.size());
 }
 
 LinearResidues linear_residues(const FitData& data, const Eigen::VectorXcd& poles) {
   const Eigen::Index n = poles.size();
   const PoleValues values(data.s, poles);
   LinearResidues result;
-  result.residue.resize(n, static_cast<Eigen::Index>(data.curves.size()));
+  result.residue.resize(n, data.curves.size());
   result.removal_loss = Eigen::VectorXd::Zero(n);
   for (std::size_t e = 0; e < data.curves.size(); ++e) {
     const Curve& curve = data.curves[e];
@@ -207,7 +207,7 @@ LinearResidues linear_residues(const FitData& data, const Eigen::VectorXcd& pole
       const Eigen::Vector2d pair = coefficient.segment<2>(2 * k);
       result.removal_loss[k] += pair.dot(Eigen::Matrix2d(inverse.block<2, 2>(2 * k, 2 * k)).inverse() * pair);
     }
-    result.residue.col(static_cast<Eigen::Index>(e)) = residue;
+    result.residue.col(e) = residue;
     const Eigen::VectorXcd error = values.phi * residue + values.phi_conj * residue.conjugate() - curve.h;
     result.chi_square += error.cwiseAbs2().dot(curve.weight);
   }

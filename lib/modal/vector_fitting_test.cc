@@ -17,15 +17,14 @@ TEST_CASE("relocation of as many poles as there are finds them in exact data") {
   for (int i = 0; i < 20; ++i) poles = relocate_poles(data, poles);
   REQUIRE(poles.size() == 4);
   for (Eigen::Index k = 0; k < 4; ++k) {
-    const Complex expected = truth.modes[static_cast<std::size_t>(k)].pole();
+    const Complex expected = truth.modes[k].pole();
     CHECK(std::abs(poles[k] - expected) < 1e-6 * std::abs(expected));
   }
   const LinearResidues linear = linear_residues(data, poles);
   CHECK(linear.chi_square < 1e-3);
   for (std::size_t e = 0; e < data.curves.size(); ++e) {
     const Complex expected = truth.modes[3].residue()(data.curves[e].response, data.curves[e].reference);
-    CHECK(std::abs(linear.residue(3, static_cast<Eigen::Index>(e)) - expected) <
-          1e-5 * truth.modes[3].residue().norm());
+    CHECK(std::abs(linear.residue(3, e) - expected) < 1e-5 * truth.modes[3].residue().norm());
   }
 }
 
@@ -33,7 +32,7 @@ TEST_CASE("a pole that is no mode costs nothing to leave out") {
   const dynamics::ModalModel truth = fixtures::close_pair();
   const FitData data = fixtures::data_of(truth, 1e-3);
   Eigen::VectorXcd poles(5);
-  for (Eigen::Index k = 0; k < 4; ++k) poles[k] = truth.modes[static_cast<std::size_t>(k)].pole();
+  for (Eigen::Index k = 0; k < 4; ++k) poles[k] = truth.modes[k].pole();
   poles[4] = Complex(-30, 2900);
   const LinearResidues linear = linear_residues(data, poles);
   CHECK(linear.removal_loss[4] < 1e-3);

@@ -29,7 +29,7 @@ std::optional<Derivatives> derivatives_at(const ConstrainedFunction& function, c
                                           const ConstrainedValue& here, double h) {
   const Eigen::Index n = x.size(), m = here.constraints.size();
   Derivatives d{Variables::Zero(n), Matrix::Zero(n, n), Eigen::MatrixXd::Zero(m, n),
-                std::vector<Matrix>(static_cast<std::size_t>(m), Matrix::Zero(n, n))};
+                std::vector<Matrix>(m, Matrix::Zero(n, n))};
   const auto moved = [&](Eigen::Index i, double a, Eigen::Index j, double b) {
     Variables y = x;
     y[i] += a * h;
@@ -214,7 +214,7 @@ std::optional<ConstrainedMaximum> constrained_maximum(const ConstrainedFunction&
     for (Eigen::Index k = 0; k < m; ++k) {
       if (here.constraints[k] < 1.5 * radius * d->constraint_gradient.row(k).lpNorm<1>()) near.push_back(k);
     }
-    const auto constraints = static_cast<Eigen::Index>(near.size());
+    const Eigen::Index constraints = near.size();
     Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(constraints + 2 * n, n);
     Eigen::VectorXd bounds(constraints + 2 * n);
     for (Eigen::Index k = 0; k < constraints; ++k) {

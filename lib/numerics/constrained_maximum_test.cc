@@ -9,7 +9,7 @@ using namespace stablecut::numerics;
 namespace {
 
 Variables variables(std::initializer_list<double> values) {
-  Variables v(static_cast<Eigen::Index>(values.size()));
+  Variables v(values.size());
   Eigen::Index i = 0;
   for (const double value : values) v[i++] = value;
   return v;

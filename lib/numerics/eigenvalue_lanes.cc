@@ -23,7 +23,7 @@ constexpr int kPatience = 60;  // sweeps for one eigenvalue
 // Lanes in memory, at whole cache lines: a vector that lies across two costs twice as much.
 class LaneArray {
  public:
-  explicit LaneArray(Eigen::Index size) : lanes_(static_cast<std::size_t>(size)) {}
+  explicit LaneArray(Eigen::Index size) : lanes_(size) {}
   double* data() { return lanes_.front().value; }
 
  private:
@@ -249,7 +249,7 @@ class LaneQr {
       : h_(h), reflections_(5 * h.n), norm_(norms) {
     for (LaneProgress& own : progress_) {
       own.high = h.n - 1;
-      own.found.reserve(static_cast<std::size_t>(h.n));
+      own.found.reserve(h.n);
     }
   }
 
@@ -265,7 +265,7 @@ class LaneQr {
       first = h_.n;
       last = -1;
       for (Eigen::Index lane = 0; lane < kLanes; ++lane) {
-        LaneProgress& own = progress_[static_cast<std::size_t>(lane)];
+        LaneProgress& own = progress_[lane];
         own.low =
             all ? static_cast<Eigen::Index>(low[lane]) : find_split(own.high, lane, own.high - 2, own.low);
         deflate(own, lane);
@@ -310,7 +310,7 @@ class LaneQr {
   Eigen::Index find_split(Eigen::Index high, Eigen::Index lane, Eigen::Index least, Eigen::Index otherwise) {
     for (Eigen::Index l = high; l > std::max<Eigen::Index>(least, 0); --l) {
       const double size = std::abs(h_.at(l - 1, l - 1, lane)) + std::abs(h_.at(l, l, lane));
-      if (is_split(h_.at(l, l - 1, lane), size, norm_[static_cast<std::size_t>(lane)])) return l;
+      if (is_split(h_.at(l, l - 1, lane), size, norm_[lane])) return l;
     }
     return otherwise;
   }

@@ -337,8 +337,7 @@ Eigen::VectorXcd leading_eigenvalues(Eigen::MatrixXd a, Eigen::Index states) {
       change = std::max(change, std::isfinite(moved) ? moved : kUnsettled);
       value = now;
     }
-    if (change <= kAgreement)
-      return Eigen::Map<const Eigen::VectorXcd>(found.data(), static_cast<Eigen::Index>(found.size()));
+    if (change <= kAgreement) return Eigen::Map<const Eigen::VectorXcd>(found.data(), found.size());
     stopped = size;
     if (change < kUnsettled) continue;
     found.clear();

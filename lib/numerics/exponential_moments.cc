@@ -43,24 +43,24 @@ Eigen::VectorXcd exponential_moments(Complex z, double x, Eigen::Index count) {
 
   // Unknown: j = forward+1 ... tail-1, row j: -z I_{j-1} - (2j+1) I_j + z I_{j+1} = -jump(j).
   moment[tail] = jump(tail) / odd(tail);
-  std::vector<Complex> pivot(static_cast<std::size_t>(tail));
+  std::vector<Complex> pivot(tail);
   for (Eigen::Index j = forward + 1; j < tail; ++j) {
     Complex right = -jump(j);
     Complex diagonal = -odd(j);
     if (j == forward + 1) {
       right += z * moment[forward];
     } else {
-      const Complex factor = z / pivot[static_cast<std::size_t>(j - 1)];
+      const Complex factor = z / pivot[j - 1];
       diagonal += factor * z;
       right += factor * moment[j - 1];
     }
     if (j == tail - 1) right -= z * moment[tail];
-    pivot[static_cast<std::size_t>(j)] = diagonal;
+    pivot[j] = diagonal;
     moment[j] = right;
   }
   for (Eigen::Index j = tail - 1; j > forward; --j) {
     if (j < tail - 1) moment[j] -= z * moment[j + 1];
-    moment[j] /= pivot[static_cast<std::size_t>(j)];
+    moment[j] /= pivot[j];
   }
   return moment.head(count);
 }

@@ -12,11 +12,11 @@ using Complex = std::complex<double>;
 
 Inverse inverse_of(const std::vector<const Tap*>& taps, Artefact& artefact, bool symmetric,
                    Eigen::Index line) {
-  const auto rows = static_cast<Eigen::Index>(taps.size());
+  const Eigen::Index rows = taps.size();
   Eigen::MatrixXcd system(rows, symmetric ? 3 : 4);
   Eigen::VectorXcd right(rows);
   for (Eigen::Index i = 0; i < rows; ++i) {
-    const Tap& tap = *taps[static_cast<std::size_t>(i)];
+    const Tap& tap = *taps[i];
     const Eigen::RowVector2cd a = artefact.to_joint(tap.response_m), b = artefact.to_joint(tap.reference_m);
     const double least = 1e-12 * std::abs(tap.h[line]);
     const double weight = 1 / std::max({std::sqrt(tap.variance[line]), least, 1e-300});

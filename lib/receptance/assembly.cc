@@ -29,7 +29,7 @@ Receptance<2> joint_receptance(const std::optional<ToolJoint>& joint, double ome
 }  // namespace
 
 Receptance<2> Assembly::holder(int direction, Eigen::Index line) const {
-  const HeldBy& by = held[static_cast<std::size_t>(direction)];
+  const HeldBy& by = held[direction];
   const double omega = rad_per_s_from_hz(frequency_hz[line]);
   if (by.end == HolderEnd::kFree) {
     if (by.segments.empty()) throw InvalidArgument("holder: a free end: expected a segment");
@@ -38,7 +38,7 @@ Receptance<2> Assembly::holder(int direction, Eigen::Index line) const {
   }
   Receptance<2> inner = Receptance<2>::Zero();
   if (by.end == HolderEnd::kGiven) {
-    inner = given[static_cast<std::size_t>(line)].block<2, 2>(2 * direction, 2 * direction);
+    inner = given[line].block<2, 2>(2 * direction, 2 * direction);
   }
   return held_chain<2>(by.segments, theory, omega, inner);
 }
@@ -52,7 +52,7 @@ Receptance<4> Assembly::tip(Eigen::Index line) const {
   const double omega = rad_per_s_from_hz(frequency_hz[line]);
   if (couples_directions) return with_mass<4>(along_tool(line, 0, 0), tip_mass_kg, omega);
   return in_both(axisymmetric, [&](int direction) -> Receptance<2> {
-    if (const auto& joint = held[static_cast<std::size_t>(direction)].joint) {
+    if (const auto& joint = held[direction].joint) {
       return plane(direction, line).tip(joint->stiffness(omega));
     }
     return with_mass<2>(held_chain<2>(tool, theory, omega, holder(direction, line)), tip_mass_kg, omega);
@@ -62,15 +62,13 @@ Receptance<4> Assembly::tip(Eigen::Index line) const {
 Receptance<4> Assembly::along_tool(Eigen::Index line, double response_m, double reference_m) const {
   const double omega = rad_per_s_from_hz(frequency_hz[line]);
   if (couples_directions) {
-    Receptance<4> holder =
-        held_chain<4>(held[0].segments, theory, omega, given[static_cast<std::size_t>(line)]);
+    Receptance<4> holder = held_chain<4>(held[0].segments, theory, omega, given[line]);
     holder.topLeftCorner<2, 2>() += joint_receptance(held[0].joint, omega);
     holder.bottomRightCorner<2, 2>() += joint_receptance(held[1].joint, omega);
     return receptance_along<4>(tool, theory, omega, holder, response_m, reference_m);
   }
   return in_both(axisymmetric, [&](int direction) -> Receptance<2> {
-    const Receptance<2> held_by =
-        holder(direction, line) + joint_receptance(held[static_cast<std::size_t>(direction)].joint, omega);
+    const Receptance<2> held_by = holder(direction, line) + joint_receptance(held[direction].joint, omega);
     return receptance_along<2>(tool, theory, omega, held_by, response_m, reference_m);
   });
 }

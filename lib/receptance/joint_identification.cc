@@ -55,7 +55,7 @@ Eigen::Matrix<double, 2, 4> derivatives(const TipLine& line, const Tip& tip, Joi
   Eigen::Matrix<double, 2, 4> result;
   for (std::size_t i = 0; i < 4; ++i) {
     if (objective == JointObjective::kAmplitude) by[i] = (std::conj(tip.h) * by[i]).real() / std::abs(tip.h);
-    result.col(static_cast<Eigen::Index>(i)) << line.weight * by[i].real(), line.weight * by[i].imag();
+    result.col(i) << line.weight * by[i].real(), line.weight * by[i].imag();
   }
   return result;
 }
@@ -82,8 +82,8 @@ class TipCost : public ceres::CostFunction {
       const Eigen::Matrix<double, 2, 4> by = derivatives(lines_[n], tip, objective_);
       for (std::size_t i = 0; i < 4; ++i) {
         const double slope = coordinates_.slope(i, values[i]);
-        jacobians[0][8 * n + i] = slope * by(0, static_cast<Eigen::Index>(i));
-        jacobians[0][8 * n + 4 + i] = slope * by(1, static_cast<Eigen::Index>(i));
+        jacobians[0][8 * n + i] = slope * by(0, i);
+        jacobians[0][8 * n + 4 + i] = slope * by(1, i);
       }
     }
     return true;
@@ -126,7 +126,7 @@ JointStart refined(const TipLines& lines, const ToolJoint& start, const JointBou
     problem.Evaluate({}, nullptr, nullptr, &slope, nullptr);
     std::vector<int> holding;
     for (int i = 0; i < 4; ++i) {
-      const auto at = static_cast<std::size_t>(i);
+      const std::size_t at = i;
       problem.SetParameterLowerBound(u.data(), i, least[at]);
       problem.SetParameterUpperBound(u.data(), i, most[at]);
       if ((u[at] - least[at] < kBoundShare && slope[at] > 0) ||
@@ -166,9 +166,9 @@ JointStart best_joint(const TipLines& lines, const JointBounds& bounds, JointObj
 // ---- noise and verdict ----
 
 Eigen::VectorXcd model_of(const TipLines& lines, const ToolJoint& joint) {
-  Eigen::VectorXcd model(static_cast<Eigen::Index>(lines.size()));
+  Eigen::VectorXcd model(lines.size());
   for (Eigen::Index i = 0; i < model.size(); ++i) {
-    model[i] = tip_of(lines[static_cast<std::size_t>(i)], joint).h;
+    model[i] = tip_of(lines[i], joint).h;
   }
   return model;
 }
@@ -188,13 +188,13 @@ void set_deviations(const TipLines& lines, const JointBounds& bounds, JointObjec
   // Information about the values, each over its own size. Those at a bound count as unknown too: a bound that
   // holds one of them tells nothing of the others.
   Eigen::Vector4d size;
-  for (std::size_t i = 0; i < 4; ++i) size[static_cast<Eigen::Index>(i)] = values[i] > 0 ? values[i] : 1;
+  for (std::size_t i = 0; i < 4; ++i) size[i] = values[i] > 0 ? values[i] : 1;
   Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
-  Eigen::VectorXcd residual(static_cast<Eigen::Index>(lines.size()));
+  Eigen::VectorXcd residual(lines.size());
   double floor = 0;
   for (std::size_t n = 0; n < lines.size(); ++n) {
     const Tip tip = tip_of(lines[n], estimate.joint);
-    residual_of(lines[n], tip, objective, residual[static_cast<Eigen::Index>(n)]);
+    residual_of(lines[n], tip, objective, residual[n]);
     const Eigen::Matrix<double, 2, 4> by = derivatives(lines[n], tip, objective) * size.asDiagonal();
     information += by.transpose() * by;
     floor += std::norm(kRounding * lines[n].weight * lines[n].measured);
@@ -216,7 +216,7 @@ void set_deviations(const TipLines& lines, const JointBounds& bounds, JointObjec
       directions.eigenvectors().transpose();
   for (std::size_t i = 0; i < 4; ++i) {
     if (estimate.at_bound[i]) continue;
-    const auto at = static_cast<Eigen::Index>(i);
+    const Eigen::Index at = i;
     const double relative = std::min(std::sqrt(variance * inverse(at, at)) * scale[at], kMostRelative);
     estimate.deviation[i] = relative * values[i];
     estimate.identifiable[i] = relative <= kMostDeviation * (1 - kNormal95 * relative);
@@ -274,7 +274,7 @@ JointEstimate identify_joint(const JointData& data, const JointBounds& bounds, J
   check(data, bounds);
   TipLines lines;
   for (Eigen::Index i = 0; i < data.tip.size(); ++i) {
-    lines.emplace_back(data.plane[static_cast<std::size_t>(i)], data.omega_rad_per_s[i], data.tip[i]);
+    lines.emplace_back(data.plane[i], data.omega_rad_per_s[i], data.tip[i]);
   }
   const double size = data.tip.norm() / std::sqrt(static_cast<double>(data.tip.size()));
   if (!(size > 0)) throw NoAnswer("the measured tip does not move: expected a receptance other than 0");
@@ -285,7 +285,7 @@ JointEstimate identify_joint(const JointData& data, const JointBounds& bounds, J
   const double least_variance = std::pow(kRounding * size, 2);
   const auto weigh = [&](const auto& variance_of) {
     for (std::size_t n = 0; n < lines.size(); ++n) {
-      lines[n].weight = 1 / std::sqrt(std::max(variance_of(static_cast<Eigen::Index>(n)), least_variance));
+      lines[n].weight = 1 / std::sqrt(std::max(variance_of(n), least_variance));
     }
   };
   weigh([&](Eigen::Index n) { return known ? variance[n] : size * size; });

@@ -34,7 +34,7 @@ JointData section_3(double step_hz = 1) {
 Eigen::VectorXcd tip_with(const JointData& data, const ToolJoint& joint) {
   Eigen::VectorXcd tip(data.omega_rad_per_s.size());
   for (Eigen::Index i = 0; i < tip.size(); ++i) {
-    tip[i] = data.plane[static_cast<std::size_t>(i)].tip(joint.stiffness(data.omega_rad_per_s[i]))(0, 0);
+    tip[i] = data.plane[i].tip(joint.stiffness(data.omega_rad_per_s[i]))(0, 0);
   }
   return tip;
 }
@@ -51,8 +51,7 @@ Eigen::Vector4d cramer_rao(const JointData& data, const ToolJoint& joint, double
     JointValues up = values_of(joint), down = up;
     up[i] *= 1 + 1e-4;
     down[i] *= 1 - 1e-4;
-    jacobian.col(static_cast<Eigen::Index>(i)) =
-        (tip_with(data, joint_of(up)) - tip_with(data, joint_of(down))) / 2e-4;
+    jacobian.col(i) = (tip_with(data, joint_of(up)) - tip_with(data, joint_of(down))) / 2e-4;
   }
   const Eigen::Matrix4d information = 2 * (jacobian.adjoint() * jacobian).real() / (deviation * deviation);
   return information.inverse().diagonal().cwiseSqrt();
@@ -117,14 +116,14 @@ TEST_CASE("noise 40 dB below the curve's size: at the Cramer-Rao bound, and what
       CHECK(estimate.identifiable == c.identifiable);
       const JointValues found = values_of(estimate.joint);
       for (std::size_t i = 0; i < 4; ++i) {
-        square[static_cast<Eigen::Index>(i)] += std::pow(found[i] / truth[i] - 1, 2);
+        square[i] += std::pow(found[i] / truth[i] - 1, 2);
         if (!c.identifiable[i]) continue;
         ++counted;
         inside += std::abs(found[i] - truth[i]) < 1.96 * estimate.deviation[i] ? 1 : 0;
       }
     }
     for (Eigen::Index i = 0; i < 4; ++i) {
-      CHECK((bound[i] < 0.3) == c.identifiable[static_cast<std::size_t>(i)]);
+      CHECK((bound[i] < 0.3) == c.identifiable[i]);
       if (bound[i] < 0.3) CHECK(std::sqrt(square[i] / kSeeds) < 1.3 * bound[i]);
     }
     CHECK(inside > 0.9 * counted);  // 95 % of 100 to 200: four of their deviations lower
@@ -174,7 +173,7 @@ TEST_CASE("noise as a share of the value, known or not") {
       const JointEstimate estimate = identify_joint(data, {}, JointObjective::kComplex);
       const JointValues found = values_of(estimate.joint), truth = values_of(joint);
       for (Eigen::Index i = 0; i < 4; ++i) {
-        const auto at = static_cast<std::size_t>(i);
+        const std::size_t at = i;
         square[i] += std::pow(found[at] / truth[at] - 1, 2) / kSeeds;
         stated[i] += std::pow(estimate.deviation[at] / truth[at], 2) / kSeeds;
       }

@@ -22,7 +22,7 @@ constexpr double kDeviations = 3;       // of the noise, below which a value is 
 constexpr double kPassiveShare = 0.05;  // of the receptance, which may be given away before it is said
 constexpr std::size_t kDirectPairs = 3, kCrossPairs = 4;  // unknowns of a symmetric and of any 2x2 matrix
 
-std::string direction_name(int direction) { return kCoordinates[static_cast<std::size_t>(2 * direction)]; }
+std::string direction_name(int direction) { return kCoordinates[2 * direction]; }
 
 // One of the four blocks, response direction d, reference direction e, line by line, with the variance of its
 // upper right entry l.
@@ -34,8 +34,7 @@ struct Block {
 // What was measured with slopes; a missing one of l and n is taken by reciprocity on the diagonal.
 bool block_of_slopes(const Taps& taps, int d, int e, Block& block) {
   std::array<const Tap*, 4> entry{};
-  for (int i = 0; i < 4; ++i)
-    entry[static_cast<std::size_t>(i)] = find(taps, 2 * d + i / 2, 2 * e + i % 2, 0, 0);
+  for (int i = 0; i < 4; ++i) entry[i] = find(taps, 2 * d + i / 2, 2 * e + i % 2, 0, 0);
   if (d == e && entry[1] == nullptr) entry[1] = entry[2];
   if (d == e && entry[2] == nullptr) entry[2] = entry[1];
   if (entry[1] == nullptr || entry[2] == nullptr) return false;
@@ -44,7 +43,7 @@ bool block_of_slopes(const Taps& taps, int d, int e, Block& block) {
                           ": entries with slopes: expected deflection and slope by force and moment");
   }
   for (std::size_t i = 0; i < block.value.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
+    const Eigen::Index at = i;
     block.value[i] << entry[0]->h[at], entry[1]->h[at], entry[2]->h[at], entry[3]->h[at];
   }
   block.l_variance = entry[1]->variance;
@@ -82,7 +81,7 @@ bool block_of_differences(const Taps& taps, int d, int e, Block& block, HolderQu
   quality.second_difference = far != nullptr;
   block.l_variance = (direct->variance + of_moment->variance) / (spacing * spacing);
   for (std::size_t i = 0; i < block.value.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
+    const Eigen::Index at = i;
     const Complex h = direct->h[at], l = (h - of_moment->h[at]) / spacing,
                   n = (h - of_slope->h[at]) / spacing;
     Complex p = h == 0.0 ? 0.0 : l * n / h;
@@ -119,7 +118,7 @@ class HolderBuilder {
       : measurement_(measurement),
         theory_(theory),
         frequency_hz_(frequency_hz),
-        lines_(static_cast<std::size_t>(frequency_hz.size())),
+        lines_(frequency_hz.size()),
         taps_(taps_of(measurement.frf, frequency_hz)) {
     if (measurement.sensor_mass_kg > 0) remove_sensor(taps_, measurement.sensor_mass_kg, frequency_hz);
     complete_by_reciprocity(taps_);
@@ -150,14 +149,14 @@ class HolderBuilder {
       if (!quality(d).measured) continue;
       for (std::size_t i = 0; i < lines_; ++i) {
         if (!is_passive(holder_.receptance[i].block<2, 2>(2 * d, 2 * d)))
-          quality(d).unphysical_hz.push_back(frequency_hz_[static_cast<Eigen::Index>(i)]);
+          quality(d).unphysical_hz.push_back(frequency_hz_[i]);
       }
     }
     return std::move(holder_);
   }
 
  private:
-  HolderQuality& quality(int d) { return holder_.quality[static_cast<std::size_t>(d)]; }
+  HolderQuality& quality(int d) { return holder_.quality[d]; }
 
   bool along_artefact() const {
     for (int d = 0; d < 2; ++d) {
@@ -221,7 +220,7 @@ class HolderBuilder {
     }
     for (std::size_t i = 0; i < lines_; ++i) {
       holder_.receptance[i].block<2, 2>(2 * d, 2 * e) = block.value[i];
-      const auto at = static_cast<Eigen::Index>(i);
+      const Eigen::Index at = i;
       if (std::abs(block.value[i](0, 1)) < kDeviations * std::sqrt(block.l_variance[at]))
         found.noisy_hz.push_back(frequency_hz_[at]);
     }
@@ -234,7 +233,7 @@ class HolderBuilder {
     for (int d = 0; d < 2; ++d) {
       quality(d).slopes = SlopeSource::kArtefact;
       for (int e = 0; e < 2; ++e) {
-        auto& pairs = taps[static_cast<std::size_t>(d)][static_cast<std::size_t>(e)];
+        auto& pairs = taps[d][e];
         if (d == e || cross_wanted(d, e)) pairs = taps_between(taps_, 2 * d, 2 * e);
       }
     }
@@ -245,18 +244,18 @@ class HolderBuilder {
       taps[1][0].clear();
     }
     for (std::size_t i = 0; i < lines_; ++i) {
-      const auto line = static_cast<Eigen::Index>(i);
+      const Eigen::Index line = i;
       Artefact artefact = artefact_at(i);
       // A direction without taps is held by nothing here, and left zero.
       Receptance<4> inverse = Receptance<4>::Identity();
       std::array<Inverse, 2> direct;
       for (int d = 0; d < 2; ++d) {
         for (int e = 0; e < 2; ++e) {
-          const auto& pairs = taps[static_cast<std::size_t>(d)][static_cast<std::size_t>(e)];
+          const auto& pairs = taps[d][e];
           if (pairs.empty()) continue;
           const Inverse found = inverse_of(pairs, artefact, d == e, line);
           inverse.block<2, 2>(2 * d, 2 * e) = found.value;
-          if (d == e) direct[static_cast<std::size_t>(d)] = found;
+          if (d == e) direct[d] = found;
         }
       }
       const Receptance<4> sum = inverse.inverse();
@@ -270,8 +269,7 @@ class HolderBuilder {
         // d l = -(A dY A)_12.
         const Eigen::RowVector3cd by(a(0, 0) * a(0, 1), a(0, 0) * a(1, 1) + a(0, 1) * a(0, 1),
                                      a(0, 1) * a(1, 1));
-        const double deviation =
-            std::sqrt((by * direct[static_cast<std::size_t>(d)].covariance * by.adjoint())(0, 0).real());
+        const double deviation = std::sqrt((by * direct[d].covariance * by.adjoint())(0, 0).real());
         if (std::abs(a(0, 1) - r22(0, 1)) < kDeviations * deviation)
           quality(d).noisy_hz.push_back(frequency_hz_[line]);
       }
@@ -279,8 +277,7 @@ class HolderBuilder {
   }
 
   Artefact artefact_at(std::size_t line) const {
-    return Artefact(measurement_.artefact, theory_,
-                    rad_per_s_from_hz(frequency_hz_[static_cast<Eigen::Index>(line)]));
+    return Artefact(measurement_.artefact, theory_, rad_per_s_from_hz(frequency_hz_[line]));
   }
 
   const HolderMeasurement& measurement_;
@@ -318,7 +315,7 @@ MeasuredHolder modal_holder(const dynamics::ModalModel& model, const Eigen::Vect
     Receptance<4> at_joint = Receptance<4>::Zero();
     for (Eigen::Index i = 0; i < 4; ++i) {
       for (Eigen::Index j = 0; j < 4; ++j) {
-        const auto from = row[static_cast<std::size_t>(i)], to = row[static_cast<std::size_t>(j)];
+        const auto from = row[i], to = row[j];
         if (from >= 0 && to >= 0) at_joint(i, j) = h(from, to);
       }
     }

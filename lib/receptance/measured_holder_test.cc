@@ -66,7 +66,7 @@ dynamics::FrequencyResponse taps_on(const MeasuredHolder& holder, const BeamChai
         entry.h.resize(kLines.size());
         for (Eigen::Index i = 0; i < kLines.size(); ++i) {
           const double omega = rad_per_s_from_hz(kLines[i]);
-          const Receptance<4>& h = holder.receptance[static_cast<std::size_t>(i)];
+          const Receptance<4>& h = holder.receptance[i];
           const Receptance<4> along = receptance_along<4>(chain, kTheory, omega, h, a, b);
           const Receptance<4> direct = receptance_along<4>(chain, kTheory, omega, h, a, a);
           Receptance<4> mass = Receptance<4>::Zero();
@@ -176,7 +176,7 @@ TEST_CASE("the finite difference: exact for a rigid holder, its noise and its en
       measured_holder(at_tip({{0, 0}, {0, 0.02}, {0.02, 0}, {0.02, 0.02}}), kTheory, kLines);
   double worst = 0;
   for (Eigen::Index i = 0; i < kLines.size(); ++i) {
-    const auto at = static_cast<std::size_t>(i);
+    const std::size_t at = i;
     const Receptance<2> tip =
         held_chain<2>(stub, kTheory, rad_per_s_from_hz(kLines[i]), body.receptance[at].topLeftCorner<2, 2>());
     worst = std::max(worst, (second.receptance[at].topLeftCorner<2, 2>() - tip)

@@ -70,8 +70,7 @@ void remove_sensor(Taps& taps, double mass_kg, const Eigen::VectorXd& frequency_
       return found == nullptr ? Eigen::VectorXcd::Zero(tap.h.size()).eval() : found->h;
     };
     if (find(measured, tap.response, tap.response, a, a) == nullptr) {
-      throw InvalidArgument(std::string("the direct receptance ") +
-                            kCoordinates[static_cast<std::size_t>(tap.response)] +
+      throw InvalidArgument(std::string("the direct receptance ") + kCoordinates[tap.response] +
                             " at the sensor's place, " + std::to_string(1e3 * a) +
                             " mm: missing, and needed to take its mass away");
     }

@@ -16,10 +16,10 @@ Tip tip_of(const TipLine& n, const ToolJoint& joint) {
 }
 
 TipLines thinned(const TipLines& lines, Eigen::Index most) {
-  const auto size = static_cast<Eigen::Index>(lines.size());
+  const Eigen::Index size = lines.size();
   const Eigen::Index stride = (size + most - 1) / most;
   TipLines result;
-  for (Eigen::Index i = 0; i < size; i += stride) result.push_back(lines[static_cast<std::size_t>(i)]);
+  for (Eigen::Index i = 0; i < size; i += stride) result.push_back(lines[i]);
   return result;
 }
 

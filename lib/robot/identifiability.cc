@@ -21,7 +21,7 @@ Identifiability identifiability(const Eigen::MatrixXd& a, const Eigen::MatrixXd&
     if (a.rows() > 0 && a.col(j).norm() > kUnseen * largest.col(j).norm()) seen.push_back(j);
   }
   if (seen.empty()) return result;
-  const auto count = static_cast<Eigen::Index>(seen.size());
+  const Eigen::Index count = seen.size();
   Eigen::MatrixXd scaled(a.rows(), count);
   for (Eigen::Index i = 0; i < count; ++i) scaled.col(i) = a.col(seen[i]).normalized();
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinU | Eigen::ComputeFullV);
@@ -31,8 +31,7 @@ Identifiability identifiability(const Eigen::MatrixXd& a, const Eigen::MatrixXd&
   const Eigen::MatrixXd unseen_mixtures = svd.matrixV().rightCols(count - result.rank);
   for (Eigen::Index i = 0; i < count; ++i) {
     const bool mixed = unseen_mixtures.row(i).norm() > kInMixture;
-    result.visibility[static_cast<std::size_t>(seen[i])] =
-        mixed ? Visibility::kInseparable : Visibility::kVisible;
+    result.visibility[seen[i]] = mixed ? Visibility::kInseparable : Visibility::kVisible;
   }
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
   for (Eigen::Index i = 0; i < result.rank; ++i)

@@ -42,7 +42,7 @@ Eigen::VectorXd not_negative(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
       if (face >> i & 1)
         free.push_back(i);
       else
-        allowed = allowed && bounded[static_cast<std::size_t>(i)];
+        allowed = allowed && bounded[i];
     }
     if (!allowed) continue;
     const Eigen::MatrixXd part = a(Eigen::all, free);
@@ -52,14 +52,13 @@ Eigen::VectorXd not_negative(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
       solution = (part * scale.cwiseInverse().asDiagonal()).householderQr().solve(b).cwiseQuotient(scale);
     }
     for (std::size_t i = 0; i < free.size(); ++i) {
-      allowed = allowed &&
-                (!bounded[static_cast<std::size_t>(free[i])] || solution[static_cast<Eigen::Index>(i)] >= 0);
+      allowed = allowed && (!bounded[free[i]] || solution[i] >= 0);
     }
     const double sum = (part * solution - b).squaredNorm();
     if (!allowed || !(sum < least)) continue;
     least = sum;
     best.setZero();
-    for (std::size_t i = 0; i < free.size(); ++i) best[free[i]] = solution[static_cast<Eigen::Index>(i)];
+    for (std::size_t i = 0; i < free.size(); ++i) best[free[i]] = solution[i];
   }
   return best;
 }
@@ -117,7 +116,7 @@ class Fit {
     // Of joints that cannot be told apart only a mixture is estimated, which may have any sign.
     bounded_.clear();
     for (const int joint : seen_.independent) {
-      bounded_.push_back(seen_.visibility[static_cast<std::size_t>(joint)] == Visibility::kVisible);
+      bounded_.push_back(seen_.visibility[joint] == Visibility::kVisible);
     }
   }
 
@@ -138,7 +137,7 @@ class Fit {
     double sum = 0;
     freedom = 0;
     for (Eigen::Index i = 0; i < rows_; ++i) {
-      if (equations_.rotation[static_cast<std::size_t>(i)] != rotation) continue;
+      if (equations_.rotation[i] != rotation) continue;
       const double per_std = 1 / std_[i];
       sum += weight_[i] * residual_[i] * residual_[i];
       freedom += 1 - weight_[i] * per_std * per_std * (a_.row(i) * normal * a_.row(i).transpose()).value();
@@ -156,7 +155,7 @@ class Fit {
     // Without residuals (exact data) or without freedom there is nothing to settle.
     const double b_size = equations_.b.cwiseAbs().maxCoeff();
     if (!(std[0] > 1e-12 * b_size) || !(std[1] > 1e-12 * b_size)) return;
-    for (Eigen::Index i = 0; i < rows_; ++i) std_[i] = std[equations_.rotation[static_cast<std::size_t>(i)]];
+    for (Eigen::Index i = 0; i < rows_; ++i) std_[i] = std[equations_.rotation[i]];
   }
 
   // RMS of a sample's residuals over their deviations.
@@ -169,11 +168,10 @@ class Fit {
   // The deviation that std_ stands for: 1 where it is stated, else from the middle of the residuals.
   double robust_unit() const {
     if (stated_) return 1;
-    std::vector<double> z(static_cast<std::size_t>(rows_));
-    for (Eigen::Index i = 0; i < rows_; ++i)
-      z[static_cast<std::size_t>(i)] = std::abs(residual_[i]) / std_[i];
+    std::vector<double> z(rows_);
+    for (Eigen::Index i = 0; i < rows_; ++i) z[i] = std::abs(residual_[i]) / std_[i];
     std::nth_element(z.begin(), z.begin() + rows_ / 2, z.end());
-    return z[static_cast<std::size_t>(rows_ / 2)] / 0.6745;
+    return z[rows_ / 2] / 0.6745;
   }
 
   void reweight() {
@@ -191,15 +189,15 @@ class Fit {
     result.high = result.low;
     const auto n = a_.cols();
     for (int j = 0; j < kJoints; ++j) {
-      switch (seen_.visibility[static_cast<std::size_t>(j)]) {
+      switch (seen_.visibility[j]) {
         case Visibility::kVisible:
-          result.verdict[static_cast<std::size_t>(j)] = JointVerdict::kIdentified;
+          result.verdict[j] = JointVerdict::kIdentified;
           break;
         case Visibility::kUnseen:
-          result.verdict[static_cast<std::size_t>(j)] = JointVerdict::kUnseen;
+          result.verdict[j] = JointVerdict::kUnseen;
           break;
         case Visibility::kInseparable:
-          result.verdict[static_cast<std::size_t>(j)] = JointVerdict::kInseparable;
+          result.verdict[j] = JointVerdict::kInseparable;
           break;
       }
     }
@@ -234,12 +232,12 @@ class Fit {
         scale / std::pow(mean_slope(), 2) * inverse_normal(std_.cwiseInverse().asDiagonal() * a_);
 
     for (Eigen::Index i = 0; i < n; ++i) {
-      const int joint = seen_.independent[static_cast<std::size_t>(i)];
+      const int joint = seen_.independent[i];
       result.compliance[joint] = solution_[i];
-      if (seen_.visibility[static_cast<std::size_t>(joint)] != Visibility::kVisible) continue;
+      if (seen_.visibility[joint] != Visibility::kVisible) continue;
       for (Eigen::Index k = 0; k < n; ++k) {
-        const int other = seen_.independent[static_cast<std::size_t>(k)];
-        if (seen_.visibility[static_cast<std::size_t>(other)] == Visibility::kVisible) {
+        const int other = seen_.independent[k];
+        if (seen_.visibility[other] == Visibility::kVisible) {
           result.covariance(joint, other) = covariance(i, k);
         }
       }
@@ -253,11 +251,10 @@ class Fit {
       if (result.deviations_known) {
         half = numerics::student_t_quantile(kConfidence, result.degrees_of_freedom) *
                std::sqrt(result.covariance(joint, joint));
-        result.low[static_cast<std::size_t>(joint)] = result.compliance[joint] - half;
-        result.high[static_cast<std::size_t>(joint)] = result.compliance[joint] + half;
+        result.low[joint] = result.compliance[joint] - half;
+        result.high[joint] = result.compliance[joint] + half;
       }
-      if (!(result.compliance[joint] > half))
-        result.verdict[static_cast<std::size_t>(joint)] = JointVerdict::kUncertain;
+      if (!(result.compliance[joint] > half)) result.verdict[joint] = JointVerdict::kUncertain;
     }
     residuals(result);
     // What a sample does to its own prediction: by the joints that are free to move, not those held at 0.
@@ -285,7 +282,7 @@ class Fit {
     double sum[2] = {0, 0};
     int count[2] = {0, 0};
     for (Eigen::Index i = 0; i < rows_; ++i) {
-      const bool rotation = equations_.rotation[static_cast<std::size_t>(i)];
+      const bool rotation = equations_.rotation[i];
       sum[rotation] += residual_[i] * residual_[i];
       ++count[rotation];
     }
@@ -313,7 +310,7 @@ class Fit {
       const Eigen::VectorXd error =
           svd.solve(Eigen::VectorXd(whiten.cwiseProduct(residual_(rows)))).cwiseQuotient(whiten);
       for (Eigen::Index i = 0; i < block.count; ++i) {
-        if (equations_.rotation[static_cast<std::size_t>(block.first + i)]) continue;
+        if (equations_.rotation[block.first + i]) continue;
         sum += error[i] * error[i];
         ++count;
       }
@@ -364,8 +361,7 @@ class Fit {
         continue;
       Outlier outlier{block.sample, 0, std::sqrt(worst.first), weight};
       for (Eigen::Index i = block.first; i < block.first + block.count; ++i) {
-        if (!equations_.rotation[static_cast<std::size_t>(i)])
-          outlier.residual_m = std::hypot(outlier.residual_m, residual_[i]);
+        if (!equations_.rotation[i]) outlier.residual_m = std::hypot(outlier.residual_m, residual_[i]);
       }
       result.outliers.push_back(outlier);
     }
@@ -396,8 +392,8 @@ Identification identify_stiffness(const Robot& robot, const std::vector<LoadSamp
                    [](JointVerdict v) { return v == JointVerdict::kIdentified; })) {
     std::string why;
     for (int j = 0; j < kJoints; ++j) {
-      const JointVerdict verdict = result.verdict[static_cast<std::size_t>(j)];
-      why += (j > 0 ? ", " : " ") + robot.joints[static_cast<std::size_t>(j)].name +
+      const JointVerdict verdict = result.verdict[j];
+      why += (j > 0 ? ", " : " ") + robot.joints[j].name +
              (verdict == JointVerdict::kUnseen        ? " is not seen by the loads and measurements"
               : verdict == JointVerdict::kInseparable ? " cannot be told from others"
                                                       : " is too uncertain to be told from rigid");

@@ -53,9 +53,7 @@ struct Identification {
   /// first.
   std::vector<Outlier> outliers;
 
-  bool identified(int joint) const {
-    return verdict[static_cast<std::size_t>(joint)] == JointVerdict::kIdentified;
-  }
+  bool identified(int joint) const { return verdict[joint] == JointVerdict::kIdentified; }
 };
 
 /// Least squares in the compliances, none below 0. Weights: the samples' deviations; without them all

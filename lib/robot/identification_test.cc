@@ -113,7 +113,7 @@ TEST_CASE("what the loads can see: 2, 4, 5 and 6 joints, each named; exact data 
     CHECK(worst_error(found) < 1e-9);
     CHECK(found.condition_number < 200);
     for (int j = 0; j < kJoints; ++j) {
-      if (!found.identified(j)) CHECK(found.verdict[static_cast<std::size_t>(j)] == JointVerdict::kUnseen);
+      if (!found.identified(j)) CHECK(found.verdict[j] == JointVerdict::kUnseen);
     }
   };
   // Vertical load, tool down: joints 2 and 3, on a plane and on a cube grid.
@@ -169,7 +169,7 @@ TEST_CASE("95 % intervals hold the truth in 93 to 97 % of all joints and 500 run
       for (int j = 0; j < kJoints; ++j) {
         if (!found.identified(j)) continue;
         const double c = 1 / k_theta_2d()[j];
-        inside += found.low[static_cast<std::size_t>(j)] <= c && c <= found.high[static_cast<std::size_t>(j)];
+        inside += found.low[j] <= c && c <= found.high[j];
         ++all;
       }
     }
@@ -229,7 +229,7 @@ TEST_CASE("stated deviations that are too small leave intervals to the residuals
     for (int j = 0; j < 5; ++j) {
       if (!found.identified(j)) continue;
       const double c = 1 / k_theta_2d()[j];
-      inside += found.low[static_cast<std::size_t>(j)] <= c && c <= found.high[static_cast<std::size_t>(j)];
+      inside += found.low[j] <= c && c <= found.high[j];
       ++all;
     }
   }
@@ -247,9 +247,9 @@ TEST_CASE("noise that hides a joint: no number for it, no negative stiffness for
     const Identification found = identify_stiffness(robot, samples, {});
     for (int j = 0; j < kJoints; ++j) {
       if (found.identified(j)) {
-        CHECK(found.low[static_cast<std::size_t>(j)] > 0);
+        CHECK(found.low[j] > 0);
       } else {
-        hidden += found.verdict[static_cast<std::size_t>(j)] == JointVerdict::kUncertain;
+        hidden += found.verdict[j] == JointVerdict::kUncertain;
       }
     }
   }
@@ -325,8 +325,7 @@ TEST_CASE("a plan is the best of all choices where they can be tried, and never 
   const auto log_det = [&](const std::vector<int>& chosen) {
     Eigen::Matrix<double, 5, 5> sum = Eigen::Matrix<double, 5, 5>::Zero();
     for (const int k : chosen) {
-      const auto a =
-          compliance_equations(robot, {candidates[static_cast<std::size_t>(k)]}, xyz).a.leftCols<5>().eval();
+      const auto a = compliance_equations(robot, {candidates[k]}, xyz).a.leftCols<5>().eval();
       sum += a.transpose() * a;
     }
     return std::log(sum.determinant());
@@ -346,7 +345,7 @@ TEST_CASE("a plan is the best of all choices where they can be tried, and never 
 
   // What the plan promises is what the identification then gets.
   std::vector<LoadSample> measured;
-  for (const int k : plan.chosen) measured.push_back(candidates[static_cast<std::size_t>(k)]);
+  for (const int k : plan.chosen) measured.push_back(candidates[k]);
   const Identification found = identify_stiffness(robot, measured, {});
   for (int j = 0; j < 5; ++j) {
     CHECK(plan.compliance_std[j] == Approx(std::sqrt(found.covariance(j, j))).epsilon(1e-6));

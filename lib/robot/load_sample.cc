@@ -39,7 +39,7 @@ ComplianceEquations compliance_equations(const Robot& robot, const std::vector<L
       equations.rotation.push_back(rotation);
     };
     for (int d = 0; d < 3; ++d) {
-      if (components[static_cast<std::size_t>(d)]) {
+      if (components[d]) {
         add(at_measurement.row(d), lever, sample.deflection_m[d], sample.deflection_std_m, d, false);
       }
     }
@@ -48,13 +48,13 @@ ComplianceEquations compliance_equations(const Robot& robot, const std::vector<L
           sample.rotation_std_rad, d, true);
     }
   }
-  const auto count = static_cast<Eigen::Index>(rows.size());
+  const Eigen::Index count = rows.size();
   equations.a.resize(count, kJoints);
   equations.largest.resize(count, kJoints);
   equations.b.resize(count);
   if (with_std) equations.std.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const Row& row = rows[static_cast<std::size_t>(i)];
+    const Row& row = rows[i];
     equations.a.row(i) = row.a;
     equations.largest.row(i) = row.largest;
     equations.b[i] = row.b;

@@ -32,7 +32,7 @@ MeasurementPlan plan_measurements(const Robot& robot, const std::vector<LoadSamp
   const Eigen::MatrixXd largest = equations.std.cwiseInverse().asDiagonal() * equations.largest;
   const Identifiability all = identifiability(a, largest);
   if (all.rank == 0) throw NoAnswer("no joint is seen by any of the candidates");
-  const auto n = static_cast<Eigen::Index>(all.independent.size());
+  const Eigen::Index n = all.independent.size();
   std::vector<Eigen::Index> columns(all.independent.begin(), all.independent.end());
 
   // Information of each candidate, in units of the columns' lengths.
@@ -41,8 +41,7 @@ MeasurementPlan plan_measurements(const Robot& robot, const std::vector<LoadSamp
   const Eigen::MatrixXd scaled = part * scale.cwiseInverse().asDiagonal();
   std::vector<Eigen::MatrixXd> information(candidates.size(), Eigen::MatrixXd::Zero(n, n));
   for (Eigen::Index i = 0; i < scaled.rows(); ++i) {
-    information[static_cast<std::size_t>(equations.sample[static_cast<std::size_t>(i)])] +=
-        scaled.row(i).transpose() * scaled.row(i);
+    information[equations.sample[i]] += scaled.row(i).transpose() * scaled.row(i);
   }
 
   // Greedy, then exchanges of one for another.
@@ -59,15 +58,15 @@ MeasurementPlan plan_measurements(const Robot& robot, const std::vector<LoadSamp
   for (int i = 0; i < count; ++i) {
     const int k = best_addition(sum).second;
     plan.chosen.push_back(k);
-    sum += information[static_cast<std::size_t>(k)];
+    sum += information[k];
   }
   for (int exchanges = 0, idle = 0; idle < count && exchanges < kMostExchanges; ++exchanges) {
-    const auto i = static_cast<std::size_t>(exchanges % count);
-    const Eigen::MatrixXd without = sum - information[static_cast<std::size_t>(plan.chosen[i])];
+    const std::size_t i = exchanges % count;
+    const Eigen::MatrixXd without = sum - information[plan.chosen[i]];
     const auto [value, k] = best_addition(without);
     ++idle;
     if (value > log_determinant(sum) + kGain) {
-      sum = without + information[static_cast<std::size_t>(k)];
+      sum = without + information[k];
       plan.chosen[i] = k;
       idle = 0;
     }
@@ -77,7 +76,7 @@ MeasurementPlan plan_measurements(const Robot& robot, const std::vector<LoadSamp
   std::vector<Eigen::Index> rows;
   for (const int k : plan.chosen) {
     for (Eigen::Index i = 0; i < a.rows(); ++i) {
-      if (equations.sample[static_cast<std::size_t>(i)] == k) rows.push_back(i);
+      if (equations.sample[i] == k) rows.push_back(i);
     }
   }
   plan.identifiability = identifiability(a(rows, Eigen::all), largest(rows, Eigen::all));
@@ -86,12 +85,12 @@ MeasurementPlan plan_measurements(const Robot& robot, const std::vector<LoadSamp
                    std::to_string(all.rank) + " joints apart that the candidates see: expected more");
   }
   sum.setZero();
-  for (const int k : plan.chosen) sum += information[static_cast<std::size_t>(k)];
+  for (const int k : plan.chosen) sum += information[k];
   const Eigen::MatrixXd inverse = sum.llt().solve(Eigen::MatrixXd::Identity(n, n));
   plan.compliance_std.setConstant(std::numeric_limits<double>::quiet_NaN());
   for (Eigen::Index i = 0; i < n; ++i) {
-    const int joint = all.independent[static_cast<std::size_t>(i)];
-    if (all.visibility[static_cast<std::size_t>(joint)] == Visibility::kVisible) {
+    const int joint = all.independent[i];
+    if (all.visibility[joint] == Visibility::kVisible) {
       plan.compliance_std[joint] = std::sqrt(inverse(i, i)) / scale[i];
     }
   }

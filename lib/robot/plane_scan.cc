@@ -52,7 +52,7 @@ PoseMap pose_map(const Robot& robot, const PlaneScan& scan) {
       map.redundancy_rad(j, i) = best->at.redundancy;
       map.branch(j, i) = best->at.branch;
       for (int d = 0; d < 3; ++d) {
-        map.stiffness[static_cast<std::size_t>(d)](j, i) =
+        map.stiffness[d](j, i) =
             directional_stiffness(evaluation->compliance, evaluation->tool.linear().col(d));
       }
     }

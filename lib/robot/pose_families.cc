@@ -71,7 +71,7 @@ Symmetry symmetry_of(const PoseScanner& scanner) {
 PoseFamily family_of(const PoseScanner& scanner, const FoundPose& found, PoseFamily::Kind kind, int joint) {
   constexpr double kStep = kPi / 720;
   PoseFamily family{kind, found.angles[joint], found.angles[joint]};
-  const Joint& limits = scanner.robot().joints[static_cast<std::size_t>(joint)];
+  const Joint& limits = scanner.robot().joints[joint];
   for (const double sense : {-1.0, 1.0}) {
     const double margin = scanner.task().limit_margin_rad;
     const double end = sense < 0 ? limits.min_rad + margin : limits.max_rad - margin;
@@ -94,7 +94,7 @@ PoseFamily family_of(const PoseScanner& scanner, const FoundPose& found, PoseFam
 FoundPose centred(const PoseScanner& scanner, FoundPose found, const Symmetry& symmetry) {
   for (const int j : {0, 5}) {
     if (!(j == 0 ? symmetry.base_turn : symmetry.tool_turn)) continue;
-    const Joint& joint = scanner.robot().joints[static_cast<std::size_t>(j)];
+    const Joint& joint = scanner.robot().joints[j];
     const double margin = scanner.task().limit_margin_rad;
     const double central = std::clamp(0.0, joint.min_rad + margin, joint.max_rad - margin);
     if (const auto moved = turned(scanner, found, j, central)) found = *moved;

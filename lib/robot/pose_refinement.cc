@@ -53,7 +53,7 @@ class Refinement {
       free.push_back(
           {&PlanePoint::redundancy, open ? -100 : task_.redundancy.from, open ? 100 : task_.redundancy.to});
     }
-    const auto n = static_cast<Eigen::Index>(free.size());
+    const Eigen::Index n = free.size();
     numerics::Variables first(n), lower(n), upper(n);
     for (Eigen::Index i = 0; i < n; ++i) {
       first[i] = start.*free[i].coordinate;

@@ -102,7 +102,7 @@ void PoseScanner::visit(double x, double y, PointScan& result, const Use& use) c
   const auto offer = [&](double margin, int sample, int branch) {
     if (margin > result.best_limit_margin_rad) {
       result.best_limit_margin_rad = margin;
-      result.least_outside = {0, {x, y, samples_[static_cast<std::size_t>(sample)].turn, branch}};
+      result.least_outside = {0, {x, y, samples_[sample].turn, branch}};
     }
     if (margin >= task_.limit_margin_rad) use(Candidate{merit[branch % kArms], margin, sample, branch});
   };
@@ -112,7 +112,7 @@ void PoseScanner::visit(double x, double y, PointScan& result, const Use& use) c
   const int count = static_cast<int>(samples_.size());
   if (!coaxial_) {
     for (int i = 0; i < count; ++i) {
-      const Sample& sample = samples_[static_cast<std::size_t>(i)];
+      const Sample& sample = samples_[i];
       solve(sample, lanes);
       if (within(lanes.limit_margin)) {
         arm_compliances(lanes, home_point.data(), task_.joint_compliance.data(), compliance);
@@ -139,7 +139,7 @@ void PoseScanner::visit(double x, double y, PointScan& result, const Use& use) c
   arm_compliances(lanes, home_point.data(), task_.joint_compliance.data(), compliance);
   score(samples_.front());
   for (int i = 0; i < count; ++i) {
-    const Sample& sample = samples_[static_cast<std::size_t>(i)];
+    const Sample& sample = samples_[i];
     if (i > 0 && !stiffness.blind_to_tool_turn()) score(sample);
     for (int b = 0; b < kBranches; ++b) {
       double q6 = lanes.angle[5][b] + turn_sense_ * (sample.turn - samples_.front().turn);
@@ -152,13 +152,11 @@ void PoseScanner::visit(double x, double y, PointScan& result, const Use& use) c
 bool PoseScanner::better(const Candidate& a, const Candidate& b) const {
   if (a.merit != b.merit) return a.merit > b.merit;
   if (a.limit_margin != b.limit_margin) return a.limit_margin > b.limit_margin;
-  return std::abs(samples_[static_cast<std::size_t>(a.sample)].turn) <
-         std::abs(samples_[static_cast<std::size_t>(b.sample)].turn);
+  return std::abs(samples_[a.sample].turn) < std::abs(samples_[b.sample].turn);
 }
 
 ScanBest PoseScanner::place_of(const Candidate& candidate, double x, double y) const {
-  return {candidate.merit,
-          {x, y, samples_[static_cast<std::size_t>(candidate.sample)].turn, candidate.branch}};
+  return {candidate.merit, {x, y, samples_[candidate.sample].turn, candidate.branch}};
 }
 
 bool PoseScanner::away_from_singularities(const PlanePoint& at) const {
@@ -173,7 +171,7 @@ PointScan PoseScanner::scan(double x, double y) const {
   result.best_limit_margin_rad = -kInfinity;
   std::array<std::optional<Candidate>, kArms> best;
   visit(x, y, result, [&](const Candidate& candidate) {
-    auto& arm = best[static_cast<std::size_t>(candidate.branch % kArms)];
+    auto& arm = best[candidate.branch % kArms];
     if (!arm || better(candidate, *arm)) arm = candidate;
   });
   for (std::size_t arm = 0; arm < kArms; ++arm) {

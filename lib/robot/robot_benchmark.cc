@@ -136,8 +136,8 @@ int main() {
     found = 0;
     for (int i = 0; i < kKdlPoses; ++i) {
       KDL::Frame frame;
-      forward.JntToCart(kdl_angles(poses[static_cast<std::size_t>(i)]), frame);
-      KDL::JntArray start = kdl_angles(poses[static_cast<std::size_t>(i)]), result(kJoints);
+      forward.JntToCart(kdl_angles(poses[i]), frame);
+      KDL::JntArray start = kdl_angles(poses[i]), result(kJoints);
       for (int j = 0; j < kJoints; ++j) start(j) += 0.2;
       found += numeric.CartToJnt(start, frame, result) == 0;
     }

@@ -41,8 +41,7 @@ Eigen::VectorXd frequencies_from(const Node& node) {
   const Eigen::VectorXd values = node.numbers(kPositive);
   if (values.size() == 0) node.fail("expected at least one frequency");
   for (Eigen::Index i = 1; i < values.size(); ++i) {
-    if (!(values[i] > values[i - 1]))
-      node.items()[static_cast<std::size_t>(i)].fail("expected increasing frequencies");
+    if (!(values[i] > values[i - 1])) node.items()[i].fail("expected increasing frequencies");
   }
   return values;
 }
@@ -259,7 +258,7 @@ class AssemblyReader {
     for (int d = 0; d < 2; ++d) {
       if (!(d == 0 ? x : y)) continue;
       int from = d;
-      if (!holder.quality[static_cast<std::size_t>(d)].measured) {
+      if (!holder.quality[d].measured) {
         from = 1 - d;
         document_.warnings.push_back(
             place(content) + (d == 0 ? "xx is missing: x is taken as y" : "yy is missing: y is taken as x"));
@@ -268,8 +267,7 @@ class AssemblyReader {
       }
       for (std::size_t i = 0; i < given.size(); ++i)
         given[i].block<2, 2>(2 * d, 2 * d) = holder.receptance[i].block<2, 2>(2 * from, 2 * from);
-      if (!modal)
-        document_.quality[static_cast<std::size_t>(d)] = holder.quality[static_cast<std::size_t>(from)];
+      if (!modal) document_.quality[d] = holder.quality[from];
     }
     if (x && y && holder.couples_directions) {
       assembly_.couples_directions = true;

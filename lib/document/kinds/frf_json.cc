@@ -92,7 +92,7 @@ dynamics::FrequencyResponse frf_from_json(const Json& document, const Source& so
   if (frf.frequency_hz.size() == 0) frequency.fail("expected at least one frequency");
   for (Eigen::Index i = 1; i < frf.frequency_hz.size(); ++i) {
     if (!(frf.frequency_hz[i] > frf.frequency_hz[i - 1])) {
-      frequency.items()[static_cast<std::size_t>(i)].fail("expected increasing frequencies");
+      frequency.items()[i].fail("expected increasing frequencies");
     }
   }
   for (const Node& item : root.at("h").items(1)) {

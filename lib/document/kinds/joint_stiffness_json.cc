@@ -107,7 +107,7 @@ std::string verdict_text(robot::JointVerdict verdict) {
 
 Json identification_to_json(const IdentificationDocument& document, const robot::Robot& robot) {
   const robot::Identification& found = document.identification;
-  const auto at = [](int j) { return static_cast<std::size_t>(j); };
+  const auto at = [](int j) { return j; };
   const auto known = [&](int j) { return found.identified(j) && found.deviations_known; };
   const auto stiffness = [&](int j) { return 1 / found.compliance[j]; };
   Json result = {

@@ -27,8 +27,8 @@ Eigen::Vector3d measured(const Node& node, const std::array<bool, 3>& components
   if (items.size() != 3) node.fail("expected 3 numbers");
   Eigen::Vector3d value = Eigen::Vector3d::Zero();
   for (int d = 0; d < 3; ++d) {
-    const Node& item = items[static_cast<std::size_t>(d)];
-    if (components[static_cast<std::size_t>(d)] || !item.is_null()) value[d] = item.number(kLength);
+    const Node& item = items[d];
+    if (components[d] || !item.is_null()) value[d] = item.number(kLength);
   }
   return value;
 }

@@ -137,13 +137,13 @@ void read_columns(const Node& rows, const Shard& shard, Eigen::MatrixXd& grid) {
   if (static_cast<Eigen::Index>(items.size()) != grid.rows())
     rows.fail("expected " + std::to_string(grid.rows()) + " rows, one for each depth");
   for (Eigen::Index d = 0; d < grid.rows(); ++d) {
-    const Eigen::VectorXd row = items[static_cast<std::size_t>(d)].numbers(kNotNegative);
+    const Eigen::VectorXd row = items[d].numbers(kNotNegative);
     Eigen::Index column = shard.index - 1;
     for (Eigen::Index s = 0; s < row.size(); ++s, column += shard.count) {
       if (column < grid.cols()) grid(d, column) = row[s];
     }
     if (column - shard.count >= grid.cols() || column < grid.cols())
-      items[static_cast<std::size_t>(d)].fail("expected a number for each speed");
+      items[d].fail("expected a number for each speed");
   }
 }
 
@@ -205,8 +205,8 @@ void merge_parts(LobesDocument& whole, bool with_grid, const Json& whole_of,
                  const std::vector<Input>& parts) {
   const std::size_t speeds = whole.speed_rpm.size();
   const auto count = static_cast<int>(parts.size());
-  const auto columns = static_cast<Eigen::Index>(speeds);
-  const auto depths = static_cast<Eigen::Index>(whole.depth_mm.size());
+  const Eigen::Index columns = speeds;
+  const Eigen::Index depths = whole.depth_mm.size();
   milling::StabilityChart& chart = whole.chart;
   if (with_grid) chart.spectral_radius.resize(depths, columns);
   chart.crossings.assign(speeds, {});
@@ -227,8 +227,8 @@ void merge_parts(LobesDocument& whole, bool with_grid, const Json& whole_of,
       of.at("count").fail("expected " + std::to_string(count) + ", the number of parts given");
     const Shard shard{of.at("index").integer(1, count), count, {}};
     if (of.at("of").json() != whole_of) of.at("of").fail("expected the inputs and options of this run");
-    if (seen[static_cast<std::size_t>(shard.index - 1)]) of.at("index").fail("expected each part once");
-    seen[static_cast<std::size_t>(shard.index - 1)] = true;
+    if (seen[shard.index - 1]) of.at("index").fail("expected each part once");
+    seen[shard.index - 1] = true;
     if (root.at("cut").json() != whole.cut) root.at("cut").fail("expected the cut and chart of this run");
     if (root.at("method").text() != (spectral ? "spectral" : "sdm") ||
         (!spectral && root.at("intervals").json() != whole.scheme.intervals)) {
@@ -257,7 +257,7 @@ void merge_parts(LobesDocument& whole, bool with_grid, const Json& whole_of,
       root.at("limit").fail("expected an entry for each speed");
     for (std::size_t s = 0; s < own.size(); ++s) {
       chart.error[column(s)] = root.at("convergence").number(kNotNegative);
-      chart.resolution[column(s)] = static_cast<int>(resolution[static_cast<Eigen::Index>(s)]);
+      chart.resolution[column(s)] = static_cast<int>(resolution[s]);
       if (!whole.sampled) continue;
       const auto interval = limits[s].at("interval_95_mm").items(2);
       for (std::size_t end = 0; end < 2; ++end) {
@@ -268,7 +268,7 @@ void merge_parts(LobesDocument& whole, bool with_grid, const Json& whole_of,
     for (const Node& item : root.at("crossings").items()) {
       const auto at = std::find(own.begin(), own.end(), item.at("speed_rpm").number());
       if (at == own.end()) item.at("speed_rpm").fail("expected one of this part's speeds");
-      chart.crossings[column(static_cast<std::size_t>(at - own.begin()))].push_back(crossing_from(item));
+      chart.crossings[column(at - own.begin())].push_back(crossing_from(item));
     }
   }
 }

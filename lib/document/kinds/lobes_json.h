@@ -39,8 +39,7 @@ struct Shard {
   template <typename T>
   std::vector<T> part_of(const std::vector<T>& whole) const {
     std::vector<T> part;
-    for (std::size_t i = static_cast<std::size_t>(index - 1); i < whole.size();
-         i += static_cast<std::size_t>(count))
+    for (std::size_t i = index - 1; i < whole.size(); i += static_cast<std::size_t>(count))
       part.push_back(whole[i]);
     return part;
   }

@@ -10,15 +10,15 @@ Json plan_to_json(const PlanDocument& document, const robot::Robot& robot) {
   const robot::MeasurementPlan& plan = document.plan;
   Json samples = Json::array();
   for (const int k : plan.chosen) {
-    const robot::LoadSample& sample = document.candidates[static_cast<std::size_t>(k)];
-    samples.push_back({{"pose", document.pose[static_cast<std::size_t>(k)] + 1},
+    const robot::LoadSample& sample = document.candidates[k];
+    samples.push_back({{"pose", document.pose[k] + 1},
                        {"joints_deg", joint_angles_to_json(sample.angles)},
                        {"force_n", {sample.force_n[0], sample.force_n[1], sample.force_n[2]}}});
   }
   Json names = Json::array(), identifiable = Json::array(), compliance = Json::array(),
        stiffness = Json::array();
   for (std::size_t j = 0; j < robot::kJoints; ++j) {
-    const double std = plan.compliance_std[static_cast<Eigen::Index>(j)];
+    const double std = plan.compliance_std[j];
     names.push_back(robot.joints[j].name);
     identifiable.push_back(std::isfinite(std));
     compliance.push_back(number_or_null(std));

@@ -19,8 +19,8 @@ Eigen::VectorXcd vector_from(const Node& node, std::size_t dofs) {
   const auto items = node.items();
   if (items.size() != dofs)
     node.fail("expected " + std::to_string(dofs) + " complex numbers, one for each of /dofs");
-  Eigen::VectorXcd psi(static_cast<Eigen::Index>(dofs));
-  for (std::size_t i = 0; i < dofs; ++i) psi[static_cast<Eigen::Index>(i)] = items[i].complex();
+  Eigen::VectorXcd psi(dofs);
+  for (std::size_t i = 0; i < dofs; ++i) psi[i] = items[i].complex();
   return psi;
 }
 
@@ -53,10 +53,9 @@ std::vector<std::string> parameter_pointers(const dynamics::ModalModel& model) {
 
 // The signs of turned dofs, for each parameter of a mode.
 Eigen::VectorXd parameter_signs(const std::vector<double>& of_dofs) {
-  const auto dofs = static_cast<Eigen::Index>(of_dofs.size());
+  const Eigen::Index dofs = of_dofs.size();
   Eigen::VectorXd signs = Eigen::VectorXd::Ones(2 + 4 * dofs);
-  for (Eigen::Index i = 0; i < 2 * dofs; ++i)
-    signs.segment<2>(2 + 2 * i).setConstant(of_dofs[static_cast<std::size_t>(i % dofs)]);
+  for (Eigen::Index i = 0; i < 2 * dofs; ++i) signs.segment<2>(2 + 2 * i).setConstant(of_dofs[i % dofs]);
   return signs;
 }
 
@@ -72,21 +71,19 @@ Eigen::MatrixXd covariance_from(const Node& node, const dynamics::ModalModel& mo
       item.fail("expected the pointer of a number in /modes, as /modes/0/psi_r/1/re, each once");
     at.push_back(index);
   }
-  const Eigen::VectorXd sign =
-      parameter_signs(signs).replicate(static_cast<Eigen::Index>(model.modes.size()), 1);
+  const Eigen::VectorXd sign = parameter_signs(signs).replicate(model.modes.size(), 1);
   const auto rows = node.at("matrix").items();
-  const auto size = static_cast<Eigen::Index>(at.size());
+  const Eigen::Index size = at.size();
   if (rows.size() != at.size())
     node.at("matrix").fail("expected " + std::to_string(at.size()) + " rows, one for each of the parameters");
-  const auto count = static_cast<Eigen::Index>(known.size());
+  const Eigen::Index count = known.size();
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(count, count);
   for (std::size_t i = 0; i < at.size(); ++i) {
     const Eigen::VectorXd row = rows[i].numbers();
     if (row.size() != size)
       rows[i].fail("expected " + std::to_string(size) + " numbers, one for each parameter");
-    if (row[static_cast<Eigen::Index>(i)] < 0) rows[i].fail("expected a variance that is not negative");
-    for (std::size_t j = 0; j < at.size(); ++j)
-      matrix(at[i], at[j]) = row[static_cast<Eigen::Index>(j)] * sign[at[i]] * sign[at[j]];
+    if (row[i] < 0) rows[i].fail("expected a variance that is not negative");
+    for (std::size_t j = 0; j < at.size(); ++j) matrix(at[i], at[j]) = row[j] * sign[at[i]] * sign[at[j]];
   }
   if (!matrix.isApprox(matrix.transpose(), 1e-9)) node.at("matrix").fail("expected a symmetric matrix");
   return matrix;
@@ -134,8 +131,8 @@ dynamics::ModalModel modal_table_from_json(const Json& document, const Source& s
     mode.psi_r = vector_from(item.at("psi_r"), model.dofs.size());
     mode.psi_l = vector_from(item.at("psi_l"), model.dofs.size());
     for (std::size_t i = 0; i < sign.size(); ++i) {
-      mode.psi_r[static_cast<Eigen::Index>(i)] *= sign[i];
-      mode.psi_l[static_cast<Eigen::Index>(i)] *= sign[i];
+      mode.psi_r[i] *= sign[i];
+      mode.psi_l[i] *= sign[i];
     }
     if (const auto out = item.find("out_of_band")) mode.out_of_band = out->boolean();
     if (const auto deviation = item.find("std"))
@@ -158,8 +155,7 @@ Json modal_table_to_json(const dynamics::ModalModel& model) {
                  {"psi_l", vector_to(mode.psi_l)}};
     if (mode.out_of_band) item["out_of_band"] = true;
     if (model.covariance.size() > 0) {
-      item["std"] = deviation_to(model.deviation(static_cast<Eigen::Index>(modes.size())),
-                                 static_cast<Eigen::Index>(model.dofs.size()));
+      item["std"] = deviation_to(model.deviation(modes.size()), static_cast<Eigen::Index>(model.dofs.size()));
     }
     modes.push_back(std::move(item));
   }

@@ -60,7 +60,7 @@ Json to_json(const robot::PoseReport& report, const robot::StiffnessTask& task) 
 Json family_to_json(const robot::PoseFamily& family, const robot::Robot& robot) {
   const auto interval = [&](const char* kind, int joint) {
     return Json{{"kind", kind},
-                {"joint", robot.joints[static_cast<std::size_t>(joint)].name},
+                {"joint", robot.joints[joint].name},
                 {"from_deg", document_degrees(family.from_rad)},
                 {"to_deg", document_degrees(family.to_rad)}};
   };

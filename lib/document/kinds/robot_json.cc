@@ -40,7 +40,7 @@ Eigen::Isometry3d frame_from(const Node& node) {
   const auto rows = rotation.items();
   if (rows.size() != 3) rotation.fail("expected 3 rows");
   Eigen::Matrix3d matrix;
-  for (int i = 0; i < 3; ++i) matrix.row(i) = vector_from(rows[static_cast<std::size_t>(i)]).transpose();
+  for (int i = 0; i < 3; ++i) matrix.row(i) = vector_from(rows[i]).transpose();
   const double error = (matrix * matrix.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!(error <= kRotationTolerance) || matrix.determinant() < 0) {
     rotation.fail("expected a rotation matrix: rows of length 1 at right angles, right-handed");
@@ -64,10 +64,10 @@ robot::Robot robot_from_json(const Json& document, const Source& source) {
   const auto items = joints.items();
   if (items.size() != robot::kJoints) joints.fail("expected 6 joints");
   for (int j = 0; j < robot::kJoints; ++j) {
-    robot.joints[static_cast<std::size_t>(j)] = joint_from(items[static_cast<std::size_t>(j)], j);
+    robot.joints[j] = joint_from(items[j], j);
     for (int i = 0; i < j; ++i) {
       if (robot.joints[i].name == robot.joints[j].name)
-        items[static_cast<std::size_t>(j)].at("name").fail("expected names that differ");
+        items[j].at("name").fail("expected names that differ");
     }
   }
   robot.flange = frame_from(root.at("flange"));

@@ -14,7 +14,7 @@
 namespace stablecut::document {
 namespace {
 
-constexpr std::size_t kNoColumn = static_cast<std::size_t>(-1);
+constexpr std::size_t kNoColumn = -1;
 
 // Where the numbers of one entry stand.
 struct EntryColumns {
@@ -323,7 +323,7 @@ class ColumnReader {
   }
 
   void take_numbers(dynamics::FrequencyResponse& frf, std::size_t first) {
-    const auto lines = static_cast<Eigen::Index>(rows_.size() - first);
+    const Eigen::Index lines = rows_.size() - first;
     frf.frequency_hz.resize(lines);
     for (const EntryColumns& columns : plan_.entries) {
       dynamics::FrequencyResponseEntry entry;

@@ -36,8 +36,7 @@ constexpr double kPercentFrom = 1.5;  // a coherence above is none
 
 std::string type_name(int type) {
   const bool named = type >= 0 && type < static_cast<int>(kTypeNames.size());
-  return "function type " + std::to_string(type) +
-         (named ? std::string(", ") + kTypeNames[static_cast<std::size_t>(type)] : "");
+  return "function type " + std::to_string(type) + (named ? std::string(", ") + kTypeNames[type] : "");
 }
 
 // A function that is left out, and why: a DataError's parts.
@@ -158,7 +157,7 @@ class Collector {
         throw DataError(source_.name, "", "function " + std::to_string(number),
                         "expected one of the file's " + std::to_string(functions.size()) + " functions");
       }
-      result.push_back(std::move(functions[static_cast<std::size_t>(number - 1)]));
+      result.push_back(std::move(functions[number - 1]));
     }
     return result;
   }
@@ -309,7 +308,7 @@ class Collector {
     static constexpr std::array kNames = {"x", "x", "y", "z"};
     if (place.direction < 0) sign = -sign;
     if (place.direction == 0) without_direction_ = true;
-    const std::string name = kNames[static_cast<std::size_t>(std::abs(place.direction))];
+    const std::string name = kNames[std::abs(place.direction)];
     return with_nodes_ ? name + "@" + std::to_string(place.node) : name;
   }
 

@@ -134,7 +134,7 @@ std::optional<Column> column_of(const std::string& header, const robot::Robot& r
   };
   for (int j = 0; j < robot::kJoints; ++j) {
     const std::string number = std::to_string(j + 1);
-    const std::string own = name_and_unit(robot.joints[static_cast<std::size_t>(j)].name, {}).first;
+    const std::string own = name_and_unit(robot.joints[j].name, {}).first;
     if (name == own || name == "a" + number || name == "j" + number || name == "q" + number ||
         name == "joint" + number || name == "axis" + number || name == "theta" + number) {
       return with_unit(Quantity::kJoint, j, angles);
@@ -211,13 +211,12 @@ LoadSamplesDocument load_samples_from_csv(const Source& source, const robot::Rob
                       "expected a column " + name + " in the header");
     }
   };
-  for (int j = 0; j < robot::kJoints; ++j)
-    need(Quantity::kJoint, j, robot.joints[static_cast<std::size_t>(j)].name);
+  for (int j = 0; j < robot::kJoints; ++j) need(Quantity::kJoint, j, robot.joints[j].name);
   static const std::string kAxes = "xyz";
   for (int d = 0; d < 3; ++d) {
-    need(Quantity::kForce, d, std::string("f") + kAxes[static_cast<std::size_t>(d)]);
-    if (components[static_cast<std::size_t>(d)]) {
-      need(Quantity::kDeflection, d, std::string("d") + kAxes[static_cast<std::size_t>(d)]);
+    need(Quantity::kForce, d, std::string("f") + kAxes[d]);
+    if (components[d]) {
+      need(Quantity::kDeflection, d, std::string("d") + kAxes[d]);
     }
   }
 
@@ -227,7 +226,7 @@ LoadSamplesDocument load_samples_from_csv(const Source& source, const robot::Rob
                                        {Quantity::kForcePoint, "force_point_"},
                                        {Quantity::kMeasuringPoint, "measuring_point_"}}) {
     if (!find(quantity, 0) && !find(quantity, 1) && !find(quantity, 2)) continue;
-    for (int d = 0; d < 3; ++d) need(quantity, d, name + kAxes[static_cast<std::size_t>(d)]);
+    for (int d = 0; d < 3; ++d) need(quantity, d, name + kAxes[d]);
   }
 
   // A spreadsheet's empty lines are rows of empty fields.
@@ -248,8 +247,7 @@ LoadSamplesDocument load_samples_from_csv(const Source& source, const robot::Rob
     const auto value = [&](Quantity quantity, int component) -> std::optional<double> {
       const auto column = find(quantity, component);
       if (!column) return std::nullopt;
-      if (quantity == Quantity::kDeflection && !components[static_cast<std::size_t>(component)])
-        return std::nullopt;
+      if (quantity == Quantity::kDeflection && !components[component]) return std::nullopt;
       const double si = table_number(source, row, *column, "a number") * columns[*column]->to_si;
       if (!(std::abs(si) <= largest(quantity))) {
         throw DataError(source.name, line_place(row.line), row.fields[*column],

@@ -9,7 +9,7 @@
 namespace stablecut::document {
 namespace {
 
-constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+constexpr std::size_t kNone = -1;
 
 std::vector<MeasuredCut> from_json(const Json& document, const Source& source) {
   const Node root(document, source);

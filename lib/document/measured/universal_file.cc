@@ -160,7 +160,7 @@ class DatasetReader {
 
   void read_record(int record, std::string_view line) {
     if (record <= 5) {
-      function_.id[static_cast<std::size_t>(record - 1)] = name_of(line);
+      function_.id[record - 1] = name_of(line);
     } else if (record == 6) {
       read_places(line);
     } else if (record == 7) {
@@ -258,8 +258,7 @@ class DatasetReader {
       axis.unit = name_of(columns(line, 48, std::max<std::size_t>(line.size(), 48)));
     } else if (words.size() > 4) {
       // Shifted columns: label and unit stand apart by more than one blank.
-      const std::string_view both =
-          trimmed(line.substr(static_cast<std::size_t>(words[4].data() - line.data())));
+      const std::string_view both = trimmed(line.substr(words[4].data() - line.data()));
       const auto gap = both.find("  ");
       axis.label = name_of(both.substr(0, gap));
       if (gap != std::string_view::npos) axis.unit = name_of(both.substr(gap));
@@ -270,7 +269,7 @@ class DatasetReader {
   // The numbers as they come, `take(i, number)` for each.
   void place_number(std::size_t i, double value) {
     const std::size_t width = layout_.ordinates() + (layout_.even ? 0 : 1);
-    const auto row = static_cast<Eigen::Index>(i / width);
+    const Eigen::Index row = i / width;
     std::size_t column = i % width;
     if (!layout_.even) {
       if (column == 0) {
@@ -284,7 +283,7 @@ class DatasetReader {
   }
 
   void make_room() {
-    const auto count = static_cast<Eigen::Index>(layout_.count);
+    const Eigen::Index count = layout_.count;
     function_.values = Eigen::VectorXcd::Zero(count);
     function_.abscissa.resize(count);
     if (!layout_.even) return;

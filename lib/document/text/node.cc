@@ -116,7 +116,7 @@ std::string Node::word(std::initializer_list<std::string_view> words) const {
 
 Eigen::VectorXd Node::numbers(const Bound& bound) const {
   if (!value_->is_array()) fail("expected a list of numbers");
-  Eigen::VectorXd result(static_cast<Eigen::Index>(value_->size()));
+  Eigen::VectorXd result(value_->size());
   Eigen::Index i = 0;
   for (const Json& item : *value_) {
     // The common case without building a pointer.
