@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "base/units.h"
 #include "cli/exit_status.h"
 #include "cli/progress_bar.h"
@@ -15,7 +16,7 @@
 #include "document/kinds/pose_json.h"
 #include "document/kinds/pose_list_json.h"
 #include "document/kinds/robot_json.h"
-#include "document/text/error.h"
+#include "document/text/data_error.h"
 
 namespace stablecut {
 namespace {
@@ -37,7 +38,7 @@ class BestPose : public cli::Tool {
             "The stiffest joint angles of a milling robot over a plane, the redundancy about the tool axis "
             "and all "
             "branches, from its joint stiffness.",
-            "pose") {}
+            "best-pose --robot robot.json --height 1600 stiffness.json > pose.json", "pose") {}
 
  private:
   using Vector = std::optional<std::array<double, 3>>;
@@ -83,11 +84,11 @@ class BestPose : public cli::Tool {
   }
 
   void run() override {
-    if (robot_path_.empty()) throw usage("--robot: missing: expected a robot document");
+    if (robot_path_.empty()) throw cli::WrongUsage("--robot: missing: expected a robot document");
     const bool evaluate = !evaluate_path_.empty();
-    if (evaluate && !map_path_.empty()) throw usage("--map: expected a search, not --evaluate");
+    if (evaluate && !map_path_.empty()) throw cli::WrongUsage("--map: expected a search, not --evaluate");
     if (!evaluate && !height_mm_ && !plane_origin_)
-      throw usage("--height: missing: expected the height of the plane, mm");
+      throw cli::WrongUsage("--height: missing: expected the height of the plane, mm");
     const robot::StiffnessTask stiffness = stiffness_task();
     const document::PlaneDocument plane = plane_document();
     const document::Input robot_input = read_input(robot_path_, cli::InputForm::kJson);
@@ -106,13 +107,11 @@ class BestPose : public cli::Tool {
       search(robot, robot_input.source, compliance, plane, document);
   }
 
-  static cli::Failure usage(const std::string& text) { return {cli::ExitStatus::kUsage, text}; }
-
   void assume(const std::string& text) {
     const auto equals = text.find('=');
     const auto value = equals == std::string::npos ? std::nullopt : parse_number(text.substr(equals + 1));
     if (!value || !(*value > 0) || equals == 0) {
-      throw CLI::ValidationError("--assume", text + ": expected JOINT=K with a stiffness above 0 N m/rad");
+      throw cli::WrongUsage("--assume: " + text + ": expected JOINT=K with a stiffness above 0 N m/rad");
     }
     assumed_.emplace_back(text.substr(0, equals), *value);
   }
@@ -124,15 +123,15 @@ class BestPose : public cli::Tool {
     if (index_ == "deflection") task.index = robot::StiffnessIndex::kDeflection;
     if (force_) {
       task.force_n = Eigen::Vector3d(force_->data());
-      if (task.force_n->isZero(0)) throw usage("--force: 0,0,0: expected a force that is not zero");
+      if (task.force_n->isZero(0)) throw cli::WrongUsage("--force: 0,0,0: expected a force that is not zero");
       if (!(task.force_n->lpNorm<Eigen::Infinity>() < kLargestForce)) {
-        throw usage("--force: expected components below 1e9 N");
+        throw cli::WrongUsage("--force: expected components below 1e9 N");
       }
     }
     if (task.index == robot::StiffnessIndex::kDeflection && !force_) {
-      throw usage("--force: missing: expected a force for the index deflection");
+      throw cli::WrongUsage("--force: missing: expected a force for the index deflection");
     }
-    if (!force_frame_.empty() && !force_) throw usage("--force-frame: expected with --force only");
+    if (!force_frame_.empty() && !force_) throw cli::WrongUsage("--force-frame: expected with --force only");
     task.force_in_tool = force_frame_ == "tool";
     return task;
   }
@@ -141,7 +140,7 @@ class BestPose : public cli::Tool {
                                    const std::string& name) {
     if (!value) return otherwise;
     const Eigen::Vector3d v(value->data());
-    if (v.isZero(0)) throw usage(name + ": 0,0,0: expected a direction");
+    if (v.isZero(0)) throw cli::WrongUsage(name + ": 0,0,0: expected a direction");
     return v.stableNormalized();
   }
 
@@ -150,7 +149,7 @@ class BestPose : public cli::Tool {
     document.height_mm = height_mm_;
     if (height_mm_) {
       if (plane_origin_ || plane_x_ || plane_y_)
-        throw usage("--height: expected either a height or --plane-origin");
+        throw cli::WrongUsage("--height: expected either a height or --plane-origin");
       document.plane.origin = {0, 0, metres_from_mm(*height_mm_)};
       return document;
     }
@@ -158,7 +157,7 @@ class BestPose : public cli::Tool {
     document.plane.x_axis = direction(plane_x_, Eigen::Vector3d::UnitX(), "--plane-x");
     document.plane.y_axis = direction(plane_y_, Eigen::Vector3d::UnitY(), "--plane-y");
     if (std::abs(document.plane.x_axis.dot(document.plane.y_axis)) > 1e-6) {
-      throw usage("--plane-y: expected a direction square to --plane-x");
+      throw cli::WrongUsage("--plane-y: expected a direction square to --plane-x");
     }
     document.plane.y_axis -= document.plane.x_axis.dot(document.plane.y_axis) * document.plane.x_axis;
     document.plane.y_axis.normalize();
@@ -175,12 +174,12 @@ class BestPose : public cli::Tool {
       if (joint == robot.joints.end()) {
         std::string names;
         for (const robot::Joint& known : robot.joints) names += (names.empty() ? "" : ", ") + known.name;
-        throw usage("--assume: " + name + ": expected one of " + names);
+        throw cli::WrongUsage("--assume: " + name + ": expected one of " + names);
       }
       auto& stiffness = joints.stiffness[joint - robot.joints.begin()];
       if (stiffness)
-        throw usage("--assume: " + name + ": " + source.name +
-                    " has a stiffness for it: expected a joint without");
+        throw cli::WrongUsage("--assume: " + name + ": " + source.name +
+                              " has a stiffness for it: expected a joint without");
       stiffness = value;
     }
     std::string missing, option;
@@ -225,12 +224,12 @@ class BestPose : public cli::Tool {
     task.x = span(x_, reach.x);
     task.y = span(y_, reach.y);
     if (static_cast<double>(task.x.count) * task.y.count > kMostPoints) {
-      throw usage("--x, --y: expected at most " + std::to_string(kMostPoints) + " points");
+      throw cli::WrongUsage("--x, --y: expected at most " + std::to_string(kMostPoints) + " points");
     }
     const Range degrees = redundancy_.value_or(kDefaultRedundancyDeg);
-    if (degrees.to - degrees.from > 360) throw usage("--redundancy: expected at most a full turn");
+    if (degrees.to - degrees.from > 360) throw cli::WrongUsage("--redundancy: expected at most a full turn");
     if (degrees.count > kMostTurns) {
-      throw usage("--redundancy: expected at most " + std::to_string(kMostTurns) + " angles");
+      throw cli::WrongUsage("--redundancy: expected at most " + std::to_string(kMostTurns) + " angles");
     }
     task.redundancy = {radians_from_degrees(degrees.from), radians_from_degrees(degrees.to), degrees.count};
     return task;
@@ -241,7 +240,7 @@ class BestPose : public cli::Tool {
               document::PoseDocument& document) {
     if (const auto bad = robot::unsupported_geometry(robot)) {
       throw document::DataError(robot_source.name, "/joints/" + std::to_string(bad->joint) + "/" + bad->field,
-                                document::Json(bad->value).dump(),
+                                number_text(bad->value),
                                 std::string("expected ") + bad->expected +
                                     ": a search needs its inverse kinematics (--evaluate does not)");
     }
@@ -288,11 +287,9 @@ class BestPose : public cli::Tool {
              "score");
       }
       if (report.limit_margin_rad < 0) {
-        char text[80];
-        std::snprintf(text, sizeof text, "%.3f degrees outside the joint limits",
-                      degrees_from_radians(-report.limit_margin_rad));
         warn(input.source.name + ": /poses/" + std::to_string(document.evaluated.size() - 1) +
-             "/joints_deg: " + text);
+             "/joints_deg: " + number_text(degrees_from_radians(-report.limit_margin_rad), 3) +
+             " degrees outside the joint limits");
       }
     }
     write_document(main_output(), document::evaluation_to_json(document));

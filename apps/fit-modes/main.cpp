@@ -6,13 +6,14 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "cli/exit_status.h"
 #include "cli/progress_bar.h"
 #include "cli/tool.h"
 #include "document/kinds/frf_json.h"
 #include "document/kinds/modal_table_json.h"
 #include "document/measured/frf_uff.h"
-#include "document/text/error.h"
+#include "document/text/data_error.h"
 #include "dynamics/synthesis.h"
 #include "measurement.h"
 #include "modal/fit.h"
@@ -31,7 +32,7 @@ class FitModes : public cli::Tool {
                   "Modes of the tool tip from measured frequency responses, nothing guessed by hand; with "
                   "--synthesize the "
                   "frequency responses of a modal table.",
-                  "modal-table") {}
+                  "fit-modes tap.uff --band 20:2000 > modes.json", "modal-table") {}
 
  private:
   void setup(CLI::App& app) override {
@@ -47,7 +48,7 @@ class FitModes : public cli::Tool {
              if (text == "auto") return;
              modes_ = parse_integer(text);
              if (!modes_ || *modes_ < 1)
-               throw CLI::ValidationError("--modes", text + ": expected auto or a number of modes");
+               throw cli::WrongUsage("--modes: " + text + ": expected auto or a number of modes");
            },
            "Number of modes (default: auto)")
         ->type_name("auto|N");
@@ -82,16 +83,15 @@ class FitModes : public cli::Tool {
     const bool is_time = text.ends_with('s');
     const auto number = parse_number(std::string_view(text).substr(0, text.size() - (is_time ? 1 : 0)));
     if (!number || !(*number > 0) || !std::isfinite(1 / *number))
-      throw CLI::ValidationError("--window-decay",
-                                 text + ": expected a decay in 1/s above 0, or a time constant as 0.2s");
+      throw cli::WrongUsage("--window-decay: " + text +
+                            ": expected a decay in 1/s above 0, or a time constant as 0.2s");
     window_decay_per_s_ = is_time ? 1 / *number : *number;
   }
 
   // Options that belong to another of the tool's works than the one that is asked for.
   void refuse(const std::vector<CLI::Option*>& options, const std::string& expected) const {
     for (const CLI::Option* option : options) {
-      if (option->count() > 0)
-        throw cli::Failure(cli::ExitStatus::kUsage, option->get_name() + ": expected " + expected);
+      if (option->count() > 0) throw cli::WrongUsage(option->get_name() + ": expected " + expected);
     }
   }
 
@@ -99,7 +99,7 @@ class FitModes : public cli::Tool {
     if (synthesize_) {
       refuse(measurement_.declared(), "without --synthesize");
       refuse(fit_options_, "without --synthesize");
-      if (convert_) throw cli::Failure(cli::ExitStatus::kUsage, "--convert: expected without --synthesize");
+      if (convert_) throw cli::WrongUsage("--convert: expected without --synthesize");
       synthesize_table();
       return;
     }
@@ -109,14 +109,12 @@ class FitModes : public cli::Tool {
       write_frf(main_output(), with_known_averages(read_measurement()));
       return;
     }
-    if (!to_.empty())
-      throw cli::Failure(cli::ExitStatus::kUsage, "--to: expected with --convert or --synthesize");
+    if (!to_.empty()) throw cli::WrongUsage("--to: expected with --convert or --synthesize");
     fit();
   }
 
   void synthesize_table() {
-    if (synthesize_->from < 0)
-      throw cli::Failure(cli::ExitStatus::kUsage, "--synthesize: expected frequencies not below 0 Hz");
+    if (synthesize_->from < 0) throw cli::WrongUsage("--synthesize: expected frequencies not below 0 Hz");
     const document::Input input = read_main_input(cli::InputForm::kJson);
     input_name_ = input.source.name;
     const dynamics::ModalModel model = document::modal_table_from_json(input.document, input.source);
@@ -197,7 +195,7 @@ class FitModes : public cli::Tool {
     if (lines.empty() || static_cast<Eigen::Index>(lines.size()) > most) return measured;
     std::string list;
     for (std::size_t i = 0; i < std::min(lines.size(), kShown); ++i)
-      list += (i == 0 ? "" : ", ") + document::short_number(measured.frequency_hz[lines[i]]);
+      list += (i == 0 ? "" : ", ") + number_text(measured.frequency_hz[lines[i]]);
     if (lines.size() > kShown) list += ", ...";
     warn(input_name_ + ": single lines stand out of their neighbours (" + std::to_string(lines.size()) +
          ": " + list + " Hz), as hum does: left out, since each would be taken for a mode");

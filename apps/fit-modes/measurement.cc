@@ -5,7 +5,7 @@
 
 #include "cli/exit_status.h"
 #include "document/kinds/frf_json.h"
-#include "document/text/error.h"
+#include "document/text/data_error.h"
 
 namespace stablecut {
 
@@ -23,7 +23,7 @@ void MeasurementOptions::declare(CLI::App& app) {
          "--functions",
          [this](const std::string& text) {
            const auto list = parse_index_list(text);
-           if (!list) throw CLI::ValidationError("--functions", text + ": expected a list, as 1-4,7");
+           if (!list) throw cli::WrongUsage("--functions: " + text + ": expected a list, as 1-4,7");
            choice_.functions = *list;
          },
          "Only these functions of a universal file, as 1-4,7")
@@ -42,8 +42,8 @@ void MeasurementOptions::take_entry(const std::string& text) {
   const auto equals = text.find('=');
   auto part = equals == std::string::npos ? std::nullopt : document::frf_part_named(text.substr(0, equals));
   if (!part || equals + 1 == text.size())
-    throw CLI::ValidationError(
-        "--entry", text + ": expected DIRECTIONS=FILE, as xy=tap.csv (response x, force along y)");
+    throw cli::WrongUsage("--entry: " + text +
+                          ": expected DIRECTIONS=FILE, as xy=tap.csv (response x, force along y)");
   parts_.push_back(*part);
   part_paths_.push_back(text.substr(equals + 1));
 }
@@ -52,19 +52,17 @@ void MeasurementOptions::take_entry(const std::string& text) {
 void MeasurementOptions::check_form(const document::Input& input, const document::FrfChoice& choice) const {
   const document::FrfForm form = document::frf_form_of(input, choice);
   if (form != document::FrfForm::kUniversalFile && (!choice.functions.empty() || choice.node))
-    throw cli::Failure(cli::ExitStatus::kUsage,
-                       input.source.name + ": expected a universal file with --functions and --node");
+    throw cli::WrongUsage(input.source.name + ": expected a universal file with --functions and --node");
   if (form != document::FrfForm::kJson) return;
   if (choice.unit || choice.averages)
-    throw cli::Failure(
-        cli::ExitStatus::kUsage,
+    throw cli::WrongUsage(
         input.source.name +
-            ": a frf document says its units and averages itself: expected no --unit, no --averages");
+        ": a frf document says its units and averages itself: expected no --unit, no --averages");
   if (!choice.quantity) return;
   const dynamics::Quantity told = document::frf_from_json(input.document, input.source).quantity;
   if (told != *choice.quantity) {
-    throw cli::Failure(cli::ExitStatus::kUsage, "--quantity: " + quantity_ + ": expected " +
-                                                    document::quantity_name(told) + ", as the document says");
+    throw cli::WrongUsage("--quantity: " + quantity_ + ": expected " + document::quantity_name(told) +
+                          ", as the document says");
   }
 }
 
@@ -87,8 +85,7 @@ Measurement MeasurementOptions::read(const std::string& main_input, const Reader
     result.frf = document::import_frf(checked(main_input), choice, result.remarks);
     for (std::string& remark : result.remarks) remark = result.name + ": " + remark;
   } else {
-    if (main_input != "-")
-      throw cli::Failure(cli::ExitStatus::kUsage, main_input + ": expected no other input with --entry");
+    if (main_input != "-") throw cli::WrongUsage(main_input + ": expected no other input with --entry");
     std::vector<document::FrfPart> parts = parts_;
     for (std::size_t i = 0; i < parts.size(); ++i) parts[i].input = checked(part_paths_[i]);
     result.frf = document::import_frf_parts(parts, choice, result.remarks);

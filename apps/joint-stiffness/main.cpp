@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "cli/exit_status.h"
 #include "cli/tool.h"
 #include "document/kinds/joint_stiffness_json.h"
@@ -32,7 +33,7 @@ class JointStiffnessTool : public cli::Tool {
             "Joint stiffness of a robot from loads and deflections at measured poses, with what the loads "
             "cannot see "
             "said so.",
-            "joint-stiffness") {}
+            "joint-stiffness --robot robot.json loads.csv > stiffness.json", "joint-stiffness") {}
 
  private:
   using Vector = std::optional<std::array<double, 3>>;
@@ -49,7 +50,7 @@ class JointStiffnessTool : public cli::Tool {
              for (const char c : text) {
                const auto d = std::string("xyz").find(c);
                if (d == std::string::npos || components_[d]) {
-                 throw CLI::ValidationError("--components", text + ": expected some of x, y, z, each once");
+                 throw cli::WrongUsage("--components: " + text + ": expected some of x, y, z, each once");
                }
                components_[d] = true;
              }
@@ -63,7 +64,7 @@ class JointStiffnessTool : public cli::Tool {
         "A force that a plan may use, N, base frame; may be given again (default: 600 along x, y, -z)",
         [this](const std::string& text) {
           const auto load = parse_vector(text);
-          if (!load) throw CLI::ValidationError("--load", text + ": expected X,Y,Z, three numbers");
+          if (!load) throw cli::WrongUsage("--load: " + text + ": expected X,Y,Z, three numbers");
           loads_.push_back(*load);
         });
     const auto positive = [](double value) { return value > 0; };
@@ -79,17 +80,15 @@ class JointStiffnessTool : public cli::Tool {
   }
 
   void run() override {
-    if (robot_path_.empty())
-      throw cli::Failure(cli::ExitStatus::kUsage, "--robot: missing: expected a robot document");
+    if (robot_path_.empty()) throw cli::WrongUsage("--robot: missing: expected a robot document");
     const bool for_plan =
         !loads_.empty() || std_mm_ || !expected_path_.empty() || load_point_mm_ || measuring_point_mm_;
     if (!plan_ && for_plan) {
-      throw cli::Failure(
-          cli::ExitStatus::kUsage,
+      throw cli::WrongUsage(
           "--load, --std-mm, --expected, --load-point, --measuring-point: expected with --plan only");
     }
     if (plan_ && (!from_.empty() || !loss_.empty())) {
-      throw cli::Failure(cli::ExitStatus::kUsage, "--from, --loss: expected without --plan");
+      throw cli::WrongUsage("--from, --loss: expected without --plan");
     }
     const document::Input robot_input = read_input(robot_path_, cli::InputForm::kJson);
     const robot::Robot robot = document::robot_from_json(robot_input.document, robot_input.source);
@@ -127,16 +126,13 @@ class JointStiffnessTool : public cli::Tool {
     if (found.chi_square_tail < 1e-3) {
       warn(input.source.name +
            ": the residuals are too large for the stated deviations (chi-square per degree of freedom " +
-           document::Json(*found.chi_square_per_dof).dump() +
-           "): the deviations of the result were scaled up");
+           number_text(*found.chi_square_per_dof) + "): the deviations of the result were scaled up");
     }
     for (const robot::Outlier& outlier : found.outliers) {
-      char text[160];
-      std::snprintf(
-          text, sizeof text, "%.1f um from the model, %.1f deviations%s", outlier.residual_m * 1e6,
-          outlier.deviations,
-          document.options.huber ? "" : ": an outlier? (--loss huber makes such samples count less)");
-      warn(input.source.name + ": " + samples.places[outlier.sample] + ": " + text);
+      warn(input.source.name + ": " + samples.places[outlier.sample] + ": " +
+           number_text(outlier.residual_m * 1e6, 3) + " um from the model, " +
+           number_text(outlier.deviations, 3) + " deviations" +
+           (document.options.huber ? "" : ": an outlier? (--loss huber makes such samples count less)"));
     }
     write_document(main_output(), document::identification_to_json(document, robot));
   }
@@ -146,10 +142,8 @@ class JointStiffnessTool : public cli::Tool {
     double largest = 0;
     for (const robot::LoadSample& sample : samples) largest = std::max(largest, sample.deflection_m.norm());
     if (largest > 0.02 || (largest > 0 && largest < 1e-6)) {
-      char text[80];
-      std::snprintf(text, sizeof text, ": the largest deflection is %.3g mm: are the units right?",
-                    largest * 1e3);
-      warn(name + text);
+      warn(name + ": the largest deflection is " + number_text(largest * 1e3, 3) +
+           " mm: are the units right?");
     }
   }
 
@@ -178,7 +172,7 @@ class JointStiffnessTool : public cli::Tool {
       }
     }
     if (*plan_ > kMostPlanned) {
-      throw cli::Failure(cli::ExitStatus::kUsage, "--plan: expected at most " + std::to_string(kMostPlanned));
+      throw cli::WrongUsage("--plan: expected at most " + std::to_string(kMostPlanned));
     }
     document.plan = robot::plan_measurements(robot, document.candidates, components_, *plan_);
     for (int j = 0; j < robot::kJoints; ++j) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "base/parallel.h"
 #include "base/units.h"
 #include "cli/exit_status.h"
@@ -19,7 +20,7 @@
 #include "document/kinds/frf_json.h"
 #include "document/kinds/tool_joint_json.h"
 #include "document/measured/frf_import.h"
-#include "document/text/error.h"
+#include "document/text/data_error.h"
 
 namespace stablecut {
 namespace {
@@ -38,13 +39,9 @@ class RcsaCouple : public cli::Tool {
             "The frequency responses at the tip of a tool that nobody tapped, by receptance coupling of "
             "tool, "
             "joint and holder; or, with --identify, the joint from a measured tip.",
-            "frf") {}
+            "rcsa-couple assembly.json > tip.json", "frf") {}
 
  private:
-  static cli::Failure usage(const std::string& text) {
-    return {cli::ExitStatus::kUsage, text + " (see rcsa-couple --help)"};
-  }
-
   void setup(CLI::App& app) override {
     app.add_flag("--slopes", slopes_, "Also the responses of slopes and to moments");
     cli::add_repeated_option(app, "--positions", "MM,MM,...",
@@ -68,14 +65,15 @@ class RcsaCouple : public cli::Tool {
 
   void run() override {
     if (identify_path_.empty()) {
-      if (!fitted_path_.empty()) throw usage("--fitted: expected --identify");
-      if (!objective_.empty()) throw usage("--objective: expected --identify");
-      if (bounds_given_) throw usage("--bounds: expected --identify");
-      if (unit_) throw usage("--unit: expected --identify");
+      if (!fitted_path_.empty()) throw cli::WrongUsage("--fitted: expected --identify");
+      if (!objective_.empty()) throw cli::WrongUsage("--objective: expected --identify");
+      if (bounds_given_) throw cli::WrongUsage("--bounds: expected --identify");
+      if (unit_) throw cli::WrongUsage("--unit: expected --identify");
       couple();
     } else {
-      if (!joint_path_.empty()) throw usage("--joint: expected no --identify");
-      if (slopes_ || !positions_m_.empty()) throw usage("--slopes, --positions: expected no --identify");
+      if (!joint_path_.empty()) throw cli::WrongUsage("--joint: expected no --identify");
+      if (slopes_ || !positions_m_.empty())
+        throw cli::WrongUsage("--slopes, --positions: expected no --identify");
       identify();
     }
   }
@@ -86,11 +84,11 @@ class RcsaCouple : public cli::Tool {
     for (const std::string_view part : split(text, ',')) {
       const auto position = parse_number(part);
       if (!position || *position < 0 || positions_m_.size() == kMostPositions)
-        throw CLI::ValidationError("--positions",
-                                   text + ": expected up to 10 distances from the tip in mm, as 0,40");
+        throw cli::WrongUsage("--positions: " + text +
+                              ": expected up to 10 distances from the tip in mm, as 0,40");
       const double metres = metres_from_mm(*position);
       if (std::find(positions_m_.begin(), positions_m_.end(), metres) != positions_m_.end())
-        throw CLI::ValidationError("--positions", text + ": expected each place once");
+        throw cli::WrongUsage("--positions: " + text + ": expected each place once");
       positions_m_.push_back(metres);
     }
   }
@@ -103,10 +101,9 @@ class RcsaCouple : public cli::Tool {
       const std::size_t at = name - kJointNames.begin();
       if (name == kJointNames.end() || !band ||
           !(band->from >= receptance::kLeastBound[at] && band->to <= receptance::kLargestBound)) {
-        throw CLI::ValidationError(
-            "--bounds", std::string(part) +
-                            ": expected k1=LO:HI, c1=, k2= or c2=, increasing, from 1e-20 for k1 and k2, "
-                            "from 0 for c1 and c2, to 1e20");
+        throw cli::WrongUsage("--bounds: " + std::string(part) +
+                              ": expected k1=LO:HI, c1=, k2= or c2=, increasing, from 1e-20 for k1 and k2, "
+                              "from 0 for c1 and c2, to 1e20");
       }
       bounds_.least[at] = band->from;
       bounds_.most[at] = band->to;
@@ -178,7 +175,7 @@ class RcsaCouple : public cli::Tool {
             entry.h[line] = value[i * pairs + p](a, b);
             if (!std::isfinite(std::abs(entry.h[line]))) {
               throw document::DataError(
-                  assembly_name_, "/frequency_hz", document::short_number(assembly.frequency_hz[line]),
+                  assembly_name_, "/frequency_hz", number_text(assembly.frequency_hz[line]),
                   "the receptance is not finite: expected sizes and materials of usual magnitude");
             }
           }
@@ -242,7 +239,7 @@ class RcsaCouple : public cli::Tool {
     document::FrfChoice choice;
     choice.unit = unit_;
     if (unit_ && document::frf_form_of(measured_input, choice) == document::FrfForm::kJson)
-      throw usage("--unit: a frf document says its units itself");
+      throw cli::WrongUsage("--unit: a frf document says its units itself");
     const dynamics::FrequencyResponse tap = document::import_frf(measured_input, choice, remarks);
     for (const std::string& remark : remarks) warn(measured_input.source.name + ": " + remark);
     const document::Input input = read_main_input(cli::InputForm::kJson);
@@ -314,28 +311,27 @@ class RcsaCouple : public cli::Tool {
 
   void judge(const receptance::JointEstimate& estimate, const std::string& direction) const {
     const receptance::JointValues values = receptance::values_of(estimate.joint);
-    const auto percent = [](double share) { return std::to_string(std::lround(100 * share)) + " %"; };
     const bool unbounded =
         std::none_of(estimate.at_bound.begin(), estimate.at_bound.end(), [](bool b) { return b; });
     const bool nothing =
         std::none_of(estimate.identifiable.begin(), estimate.identifiable.end(), [](bool b) { return b; });
     if (objective_ != "amplitude" && estimate.residual > kNoFit) {
-      throw NoAnswer(direction + ": the best joint leaves " + percent(estimate.residual) +
+      throw NoAnswer(direction + ": the best joint leaves " + percent_text(estimate.residual) +
                      " of the measured tip, " + identify_path_ +
                      ", unexplained: are tool, holder and units right?");
     }
     if (unbounded && nothing)
       throw NoAnswer(direction + ": the measured tip, " + identify_path_ + ", tells nothing of the joint");
     if (estimate.residual > kPoorFit)
-      warn(direction + ": the best joint leaves " + percent(estimate.residual) +
+      warn(direction + ": the best joint leaves " + percent_text(estimate.residual) +
            " of the measured tip unexplained");
     for (std::size_t i = 0; i < values.size(); ++i) {
       const std::string name = direction + ": " + kJointNames[i];
       if (estimate.at_bound[i]) {
-        warn(name + " lies at its bound, " + document::short_number(values[i]));
+        warn(name + " lies at its bound, " + number_text(values[i]));
       } else if (!estimate.identifiable[i]) {
         warn(name + " is not identifiable: its standard deviation is " +
-             percent(estimate.deviation[i] / values[i]) + " of it");
+             percent_text(estimate.deviation[i] / values[i]) + " of it");
       }
     }
   }

@@ -103,8 +103,8 @@ refused 64 '^sdm-lobes: --kr: missing' sdm-lobes "$table" --teeth 2 --kt 600
 refused 64 '^sdm-lobes: --cut: expected either' sdm-lobes "$table" --cut "$cut" --teeth 2
 refused 64 '^sdm-lobes: -: expected standard input for one input only' sdm-lobes --cut - <"$cut"
 refused 64 '^sdm-lobes: --speed: 5000:20000: expected FROM:TO:COUNT' sdm-lobes "$table" --cut "$cut" --speed 5000:20000
-refused 64 '^sdm-lobes: --depth: -1.0: expected depths not below 0' sdm-lobes "$table" --cut "$cut" --depth -1:2:3
-refused 64 '^sdm-lobes: --speed: 0.0: expected speeds above 0' sdm-lobes "$table" --cut "$cut" --speed 0:2:3
+refused 64 '^sdm-lobes: --depth: -1: expected depths not below 0' sdm-lobes "$table" --cut "$cut" --depth -1:2:3
+refused 64 '^sdm-lobes: --speed: 0: expected speeds above 0' sdm-lobes "$table" --cut "$cut" --speed 0:2:3
 refused 64 '^sdm-lobes: --teeth: 0: expected' sdm-lobes "$table" --teeth 0 --kt 1 --kr 1 --milling up --immersion 1
 refused 64 '^sdm-lobes: --kt: nan: expected' sdm-lobes "$table" --teeth 1 --kt nan --kr 1 --milling up --immersion 1
 refused 64 '^sdm-lobes: --modes: 16: expected at most 15' sdm-lobes "$table" --cut "$cut" --modes 16

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/number_text.h"
 #include "base/parallel.h"
 #include "base/units.h"
 #include "cli/exit_status.h"
@@ -11,7 +12,7 @@
 #include "document/kinds/cut_json.h"
 #include "document/kinds/lobes_json.h"
 #include "document/kinds/modal_table_json.h"
-#include "document/text/error.h"
+#include "document/text/data_error.h"
 
 namespace stablecut {
 namespace {
@@ -31,7 +32,7 @@ class SdmLobes : public cli::Tool {
             "Stability lobes of milling from a modal table of the tool tip: spectral radii over speed and "
             "depth, "
             "and the limit depth at each speed.",
-            "lobes") {}
+            "sdm-lobes modes.json --cut cut.json > lobes.json", "lobes") {}
 
  private:
   void setup(CLI::App& app) override {
@@ -60,7 +61,7 @@ class SdmLobes : public cli::Tool {
            [this](const std::string& text) {
              modes_ = parse_index_list(text);
              if (!modes_)
-               throw CLI::ValidationError("--modes", text + ": expected 1-based indices such as 1-7,14-15");
+               throw cli::WrongUsage("--modes: " + text + ": expected 1-based indices such as 1-7,14-15");
            },
            "Use only these modes of the table, such as 1-7,14-15")
         ->type_name("LIST");
@@ -95,7 +96,7 @@ class SdmLobes : public cli::Tool {
                  const auto count =
                      slash == std::string::npos ? std::nullopt : parse_integer(text.substr(slash + 1));
                  if (!index || !count || *index < 1 || *index > *count)
-                   throw CLI::ValidationError("--shard", text + ": expected K/N with 1 <= K <= N");
+                   throw cli::WrongUsage("--shard: " + text + ": expected K/N with 1 <= K <= N");
                  shard_ = document::Shard{*index, *count, {}};
                },
                "Only part K of N of the chart: every Nth speed from the Kth on")
@@ -127,11 +128,9 @@ class SdmLobes : public cli::Tool {
     const Range speed = speed_.value_or(cut.speed_rpm.value_or(kDefaultSpeed));
     const Range depth = depth_.value_or(cut.depth_mm.value_or(kDefaultDepth));
     if (!(speed.from > 0))
-      throw cli::Failure(cli::ExitStatus::kUsage,
-                         "--speed: " + document::Json(speed.from).dump() + ": expected speeds above 0 rpm");
+      throw cli::WrongUsage("--speed: " + number_text(speed.from) + ": expected speeds above 0 rpm");
     if (depth.from < 0)
-      throw cli::Failure(cli::ExitStatus::kUsage, "--depth: " + document::Json(depth.from).dump() +
-                                                      ": expected depths not below 0 mm");
+      throw cli::WrongUsage("--depth: " + number_text(depth.from) + ": expected depths not below 0 mm");
     lobes.speed_rpm = speed.values();
     lobes.depth_mm = depth.values();
     lobes.cut = cut_as_used(cut_json, speed, depth);
@@ -143,8 +142,8 @@ class SdmLobes : public cli::Tool {
     }
 
     if (shard_ && static_cast<std::size_t>(shard_->count) > lobes.speed_rpm.size())
-      throw cli::Failure(cli::ExitStatus::kUsage, "--shard: expected at most as many parts as speeds, " +
-                                                      std::to_string(lobes.speed_rpm.size()));
+      throw cli::WrongUsage("--shard: expected at most as many parts as speeds, " +
+                            std::to_string(lobes.speed_rpm.size()));
     // The table's own hash, and the options that choose from it.
     const document::Json of = {{"sha256", cli::sha256(table.source.text)},
                                {"modes", modes_.value_or(std::vector<int>{})},
@@ -180,16 +179,13 @@ class SdmLobes : public cli::Tool {
   };
 
   void check_usage() const {
-    const auto usage = [](bool wrong, const std::string& text) {
-      if (wrong) throw cli::Failure(cli::ExitStatus::kUsage, text);
-    };
-    usage(intervals_ && method_ != "sdm", "--intervals: expected with --method sdm only");
-    usage(samples_ && method_ == "sdm", "--samples: expected with --method spectral only");
-    usage(seed_ && !samples_, "--seed: expected with --samples only");
-    usage(cut_path_ == "-" && main_input() == "-", "-: expected standard input for one input only");
-    usage(shard_ && !part_paths_.empty(), "--shard: expected either --shard or --merge");
-    usage(shard_ && (per_mode_ || !points_path_.empty()),
-          "--shard: expected --per-mode and --points with --merge, not with a part");
+    cli::refuse_if(intervals_ && method_ != "sdm", "--intervals: expected with --method sdm only");
+    cli::refuse_if(samples_ && method_ == "sdm", "--samples: expected with --method spectral only");
+    cli::refuse_if(seed_ && !samples_, "--seed: expected with --samples only");
+    cli::refuse_if(cut_path_ == "-" && main_input() == "-", "-: expected standard input for one input only");
+    cli::refuse_if(shard_ && !part_paths_.empty(), "--shard: expected either --shard or --merge");
+    cli::refuse_if(shard_ && (per_mode_ || !points_path_.empty()),
+                   "--shard: expected --per-mode and --points with --merge, not with a part");
   }
 
   // What the options ask of the cut.
@@ -197,13 +193,11 @@ class SdmLobes : public cli::Tool {
     const milling::Cutter& cutter = cut.cutter;
     if (method_ == "sdm" &&
         (!cutter.equal_pitch() || cutter.lag_rad_per_m != 0 || cutter.damping_n_per_m > 0)) {
-      throw cli::Failure(cli::ExitStatus::kUsage,
-                         "--method: sdm: expected straight teeth of equal pitch without process damping");
+      throw cli::WrongUsage("--method: sdm: expected straight teeth of equal pitch without process damping");
     }
     if ((most_power_ || most_torque_) && !cut.feed_per_tooth_m) {
-      throw cli::Failure(cli::ExitStatus::kUsage,
-                         (most_power_ ? std::string("--max-power") : std::string("--max-torque")) +
-                             ": expected feed_per_tooth_mm and diameter_mm in the cut");
+      throw cli::WrongUsage((most_power_ ? std::string("--max-power") : std::string("--max-torque")) +
+                            ": expected feed_per_tooth_mm and diameter_mm in the cut");
     }
   }
 
@@ -281,8 +275,7 @@ class SdmLobes : public cli::Tool {
     const double error =
         std::max(lobes.points_error, *std::max_element(lobes.chart.error.begin(), lobes.chart.error.end()));
     if (error > kSuspectError)
-      warn("the spectral radius has converged only to " + document::Json(error).dump() +
-           " (see /convergence)");
+      warn("the spectral radius has converged only to " + number_text(error) + " (see /convergence)");
   }
 
   // From --cut, or from the options.
@@ -291,8 +284,7 @@ class SdmLobes : public cli::Tool {
                                           [](const CLI::Option* option) { return option->count() > 0; });
     if (!cut_path_.empty()) {
       if (from_options) {
-        throw cli::Failure(
-            cli::ExitStatus::kUsage,
+        throw cli::WrongUsage(
             "--cut: expected either a cut document or --teeth --kt --kr --milling --immersion");
       }
       const document::Input input = read_input(cut_path_, cli::InputForm::kJson);
@@ -301,9 +293,8 @@ class SdmLobes : public cli::Tool {
     }
     for (const CLI::Option* option : cut_options_) {
       if (option->count() == 0) {
-        throw cli::Failure(
-            cli::ExitStatus::kUsage,
-            option->get_name() + ": missing: expected --cut, or --teeth --kt --kr --milling --immersion");
+        throw cli::WrongUsage(option->get_name() +
+                              ": missing: expected --cut, or --teeth --kt --kr --milling --immersion");
       }
     }
     cut_source_.name = "options";
@@ -317,7 +308,7 @@ class SdmLobes : public cli::Tool {
     try {
       return document::cut_from_json(document, cut_source_);
     } catch (const document::DataError& error) {
-      throw cli::Failure(cli::ExitStatus::kUsage, error.what());
+      throw cli::WrongUsage(error.what());
     }
   }
 
@@ -337,9 +328,8 @@ class SdmLobes : public cli::Tool {
     std::vector<std::size_t> selected;
     for (const int index : *modes_) {
       if (static_cast<std::size_t>(index) > model.modes.size()) {
-        throw cli::Failure(cli::ExitStatus::kUsage,
-                           "--modes: " + std::to_string(index) + ": expected at most " +
-                               std::to_string(model.modes.size()) + ", the modes of " + source.name);
+        throw cli::WrongUsage("--modes: " + std::to_string(index) + ": expected at most " +
+                              std::to_string(model.modes.size()) + ", the modes of " + source.name);
       }
       selected.push_back(index - 1);
     }

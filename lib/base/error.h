@@ -2,8 +2,21 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
 
 namespace stablecut {
+
+/// What whoever asked could change, where an error suggests it. A tool knows which of its options that is,
+/// and a room below it knows of none.
+enum class Remedy {
+  kNone,
+  kBand,       ///< another band of the measurement
+  kQuantity,   ///< say what was measured
+  kUnit,       ///< say in which unit
+  kFunctions,  ///< take some of the file's functions
+  kNode,       ///< take what was measured at one node
+  kModes       ///< take some of the modes
+};
 
 /// An argument outside what the function can take; the text names quantity, value and what was expected.
 class InvalidArgument : public std::invalid_argument {
@@ -14,7 +27,12 @@ class InvalidArgument : public std::invalid_argument {
 /// The input is valid, but the question has no answer: a fit that does not converge, an empty band.
 class NoAnswer : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit NoAnswer(const std::string& text, Remedy remedy = Remedy::kNone)
+      : std::runtime_error(text), remedy_(remedy) {}
+  Remedy remedy() const { return remedy_; }
+
+ private:
+  Remedy remedy_;
 };
 
 }  // namespace stablecut

@@ -29,4 +29,16 @@ class Failure : public std::runtime_error {
   ExitStatus status_;
 };
 
+/// Options that the tool cannot work with. The text is `--option: value: expected ...`; the tool adds where
+/// its help is.
+class WrongUsage : public Failure {
+ public:
+  explicit WrongUsage(const std::string& text) : Failure(ExitStatus::kUsage, text) {}
+};
+
+/// Throws WrongUsage with the text where something holds.
+inline void refuse_if(bool wrong, const std::string& text) {
+  if (wrong) throw WrongUsage(text);
+}
+
 }  // namespace stablecut::cli

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "cli/exit_status.h"
 #include "cli/streams.h"
-#include "document/text/error.h"
+#include "document/text/data_error.h"
 
 namespace stablecut::cli {
 namespace {
@@ -37,13 +37,15 @@ CLI::Option* add_parsed_option(CLI::App& app, const std::string& name, T& value,
           name,
           [&value, name, expected, parse](const std::string& text) {
             value = parse(text);
-            if (!value) throw CLI::ValidationError(name, text + ": expected " + expected);
+            if (!value) throw WrongUsage(name + ": " + text + ": expected " + expected);
           },
           description)
       ->type_name(type_name);
 }
 
 }  // namespace
+
+void begin_group(CLI::App& app, const std::string& heading) { app.option_defaults()->group(heading); }
 
 CLI::Option* add_range_option(CLI::App& app, const std::string& name, std::optional<Range>& value,
                               const std::string& description) {
@@ -105,7 +107,7 @@ CLI::Option* add_choice_option(CLI::App& app, const std::string& name, std::stri
           [&value, name, words](const std::string& text) {
             if (text.empty() || text.find('|') != std::string::npos ||
                 ("|" + words + "|").find("|" + text + "|") == std::string::npos) {
-              throw CLI::ValidationError(name, text + ": expected " + words);
+              throw WrongUsage(name + ": " + text + ": expected " + words);
             }
             value = text;
           },
@@ -120,8 +122,15 @@ CLI::Option* add_unit_option(CLI::App& app, std::optional<document::FrfUnit>& va
                            [](const std::string& text) { return document::frf_unit(text); });
 }
 
-Tool::Tool(std::string name, std::string purpose, std::string main_kind)
-    : name_(std::move(name)), main_kind_(std::move(main_kind)), app_(std::move(purpose), name_) {}
+Tool::Tool(std::string name, std::string purpose, const std::string& example, std::string main_kind)
+    : name_(std::move(name)),
+      main_kind_(std::move(main_kind)),
+      app_(std::move(purpose) + "\n\nExample: " + example, name_) {}
+
+std::string Tool::advice(Remedy remedy) const {
+  const std::string option = option_for(remedy);
+  return option.empty() ? "" : " (" + option + ")";
+}
 
 CLI::Option* Tool::add_file_option(CLI::App& app, const std::string& name, std::string& path,
                                    const std::string& description) {
@@ -138,8 +147,7 @@ document::Input Tool::read_part(const std::string& path) {
 
 document::Input Tool::read_input(const std::string& path, InputForm form) {
   if (path == "-") {
-    if (standard_input_taken_)
-      throw Failure(ExitStatus::kUsage, "-: expected standard input for one input only");
+    if (standard_input_taken_) throw WrongUsage("-: expected standard input for one input only");
     standard_input_taken_ = true;
   }
   document::Input input{read_source(path), nullptr};
@@ -161,7 +169,7 @@ void Tool::write_text(const std::string& path, std::string text) {
   const std::string whole =
       path == "-" ? path : std::filesystem::weakly_canonical(std::filesystem::absolute(path)).string();
   if (std::find(output_paths_.begin(), output_paths_.end(), whole) != output_paths_.end()) {
-    throw Failure(ExitStatus::kUsage, path + ": expected another output for each document");
+    throw WrongUsage(path + ": expected another output for each document");
   }
   output_paths_.push_back(whole);
   outputs_.add(path, std::move(text));
@@ -193,6 +201,7 @@ int Tool::parse(int argc, char** argv) {
   app_.add_option("INPUT", input_, "Input file, - for standard input")->capture_default_str();
   add_file_option(app_, "-o,--output", output_, "Output file, - for standard output")->capture_default_str();
   setup(app_);
+  begin_group(app_, "Every tool");
   not_in_provenance(app_.add_flag("--quiet", quiet_, "No warnings, no progress bar"));
   const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
   threads_ = static_cast<int>(cores);
@@ -214,12 +223,12 @@ int Tool::parse(int argc, char** argv) {
     outputs_.add("-", std::string(version.what()) + "\n");
     return 1;
   } catch (const CLI::ParseError& error) {
-    throw Failure(ExitStatus::kUsage, std::string(error.what()) + " (see " + name_ + " --help)");
+    throw WrongUsage(error.what());
   }
   for (const CLI::Option* option : app_.get_options()) {
     const auto& texts = option->results();
     if (option != schema_option_ && std::find(texts.begin(), texts.end(), "") != texts.end()) {
-      throw Failure(ExitStatus::kUsage, option->get_name() + ": empty: expected a value");
+      throw WrongUsage(option->get_name() + ": empty: expected a value");
     }
   }
   if (threads) threads_ = *threads;
@@ -227,8 +236,7 @@ int Tool::parse(int argc, char** argv) {
     const std::string kind = schema_.empty() ? main_kind_ : schema_;
     const auto schema = document::schema_text(kind);
     if (!schema) {
-      throw Failure(ExitStatus::kUsage,
-                    "--print-schema: " + kind + ": expected one of " + document::schema_kinds());
+      throw WrongUsage("--print-schema: " + kind + ": expected one of " + document::schema_kinds());
     }
     outputs_.add("-", std::string(*schema));
     return 1;
@@ -246,14 +254,16 @@ int Tool::main(int argc, char** argv) {
     if (parse(argc, argv) == 0) run();
     outputs_.commit();
     return static_cast<int>(ExitStatus::kDone);
+  } catch (const WrongUsage& wrong) {
+    return end(wrong.status(), std::string(wrong.what()) + " (see " + name_ + " --help)");
   } catch (const Failure& failure) {
     return end(failure.status(), failure.what());
   } catch (const document::DataError& error) {
-    return end(ExitStatus::kData, error.what());
+    return end(ExitStatus::kData, error.what() + advice(error.remedy()));
   } catch (const InvalidArgument& error) {
     return end(ExitStatus::kData, error.what());
   } catch (const NoAnswer& answer) {
-    return end(ExitStatus::kNoAnswer, answer.what());
+    return end(ExitStatus::kNoAnswer, answer.what() + advice(answer.remedy()));
   } catch (const std::bad_alloc&) {
     return end(ExitStatus::kInternal, "out of memory");
   } catch (const std::exception& error) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "base/progress.h"
 #include "base/range.h"
 #include "cli/output.h"
@@ -24,8 +25,9 @@ enum class InputForm { kByContent, kJson, kText };
 /// throws on failure; outputs are written after run() has returned.
 class Tool {
  public:
-  /// `main_kind` is the document kind that --print-schema prints by default.
-  Tool(std::string name, std::string purpose, std::string main_kind);
+  /// `example` is a command that --help shows first; `main_kind` the document kind that --print-schema prints
+  /// by default.
+  Tool(std::string name, std::string purpose, const std::string& example, std::string main_kind);
   virtual ~Tool() = default;
 
   /// Parses, runs, writes; the exit status. Every failure is one line on standard error.
@@ -34,6 +36,10 @@ class Tool {
  protected:
   virtual void setup(CLI::App& app) = 0;
   virtual void run() = 0;
+  /// This tool's option for what an error suggests, such as `--band`; empty where it has none.
+  virtual std::string option_for(Remedy) const { return ""; }
+  /// The same in brackets behind a space, to be put after a message; empty where there is none.
+  std::string advice(Remedy remedy) const;
 
   /// The main input (INPUT, standard input by default) or another; remembered for the provenance.
   document::Input read_main_input(InputForm form) { return read_input(input_, form); }
@@ -81,6 +87,9 @@ class Tool {
   OutputSet outputs_;
 };
 
+/// The options that are added after this stand under that heading in --help.
+void begin_group(CLI::App& app, const std::string& heading);
+
 /// An option whose text must be FROM:TO:COUNT.
 CLI::Option* add_range_option(CLI::App& app, const std::string& name, std::optional<Range>& value,
                               const std::string& description);
@@ -94,7 +103,7 @@ CLI::Option* add_number_option(CLI::App& app, const std::string& name, std::opti
 /// An option whose text must be X,Y,Z.
 CLI::Option* add_vector_option(CLI::App& app, const std::string& name,
                                std::optional<std::array<double, 3>>& value, const std::string& description);
-/// An option that may be given again: `take` gets each text, and throws CLI::ValidationError for a wrong one.
+/// An option that may be given again: `take` gets each text, and throws WrongUsage for a wrong one.
 CLI::Option* add_repeated_option(CLI::App& app, const std::string& name, const std::string& type_name,
                                  const std::string& description,
                                  const std::function<void(const std::string&)>& take);

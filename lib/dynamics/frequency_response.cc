@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "base/units.h"
 
 namespace stablecut::dynamics {
@@ -47,21 +48,25 @@ FrequencyResponse to_receptance(FrequencyResponse frf, double decay_per_s) {
   return frf;
 }
 
-FrequencyResponse within_band(const FrequencyResponse& frf, double lo_hz, double hi_hz) {
-  Eigen::Index first = 0;
-  Eigen::Index count = 0;
-  for (Eigen::Index line = 0; line < frf.frequency_hz.size(); ++line) {
-    if (frf.frequency_hz[line] < lo_hz) first = line + 1;
-    if (frf.frequency_hz[line] >= lo_hz && frf.frequency_hz[line] <= hi_hz) ++count;
-  }
+FrequencyResponse select(const FrequencyResponse& frf, const std::vector<Eigen::Index>& lines) {
   FrequencyResponse part = frf;
-  part.frequency_hz = frf.frequency_hz.segment(first, count).eval();
-  for (auto& entry : part.entries) {
-    entry.h = entry.h.segment(first, count).eval();
-    if (entry.variance.size() > 0) entry.variance = entry.variance.segment(first, count).eval();
-    if (entry.coherence.size() > 0) entry.coherence = entry.coherence.segment(first, count).eval();
+  part.frequency_hz = frf.frequency_hz(lines);
+  for (std::size_t e = 0; e < frf.entries.size(); ++e) {
+    const auto& from = frf.entries[e];
+    auto& entry = part.entries[e];
+    entry.h = from.h(lines);
+    if (from.variance.size() > 0) entry.variance = from.variance(lines);
+    if (from.coherence.size() > 0) entry.coherence = from.coherence(lines);
   }
   return part;
+}
+
+FrequencyResponse within_band(const FrequencyResponse& frf, double lo_hz, double hi_hz) {
+  std::vector<Eigen::Index> inside;
+  for (Eigen::Index line = 0; line < frf.frequency_hz.size(); ++line) {
+    if (frf.frequency_hz[line] >= lo_hz && frf.frequency_hz[line] <= hi_hz) inside.push_back(line);
+  }
+  return select(frf, inside);
 }
 
 FrequencyResponse without_lines(const FrequencyResponse& frf, const std::vector<Eigen::Index>& lines) {
@@ -74,14 +79,7 @@ FrequencyResponse without_lines(const FrequencyResponse& frf, const std::vector<
       kept.push_back(i);
     }
   }
-  FrequencyResponse part = frf;
-  part.frequency_hz = frf.frequency_hz(kept).eval();
-  for (auto& entry : part.entries) {
-    entry.h = entry.h(kept).eval();
-    if (entry.variance.size() > 0) entry.variance = entry.variance(kept).eval();
-    if (entry.coherence.size() > 0) entry.coherence = entry.coherence(kept).eval();
-  }
-  return part;
+  return select(frf, kept);
 }
 
 FrequencyResponse on_lines(const FrequencyResponse& frf, const Eigen::VectorXd& frequency_hz) {
@@ -98,8 +96,8 @@ FrequencyResponse on_lines(const FrequencyResponse& frf, const Eigen::VectorXd& 
   for (Eigen::Index i = 0; i < lines; ++i) {
     const double hz = frequency_hz[i], rounding = 1e-9 * hz;
     if (!(hz >= from[0] - rounding && hz <= from[measured - 1] + rounding)) {
-      throw InvalidArgument("line at " + std::to_string(hz) + " Hz: expected the measured band, " +
-                            std::to_string(from[0]) + " to " + std::to_string(from[measured - 1]) + " Hz");
+      throw InvalidArgument("line at " + number_text(hz) + " Hz: expected the measured band, " +
+                            number_text(from[0]) + " to " + number_text(from[measured - 1]) + " Hz");
     }
     const Eigen::Index above = std::min<Eigen::Index>(
         std::lower_bound(from.begin(), from.end(), hz - rounding) - from.begin(), measured - 1);

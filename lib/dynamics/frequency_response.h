@@ -42,6 +42,9 @@ struct FrequencyResponse {
 /// decay. Throws InvalidArgument when a line at 0 Hz would have to be divided by zero.
 FrequencyResponse to_receptance(FrequencyResponse frf, double decay_per_s = 0);
 
+/// These lines (indices in the order wanted), of every entry with what is known of it.
+FrequencyResponse select(const FrequencyResponse& frf, const std::vector<Eigen::Index>& lines);
+
 /// The lines with lo_hz <= frequency <= hi_hz. May be empty.
 FrequencyResponse within_band(const FrequencyResponse& frf, double lo_hz, double hi_hz);
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "base/units.h"
 
 namespace stablecut::dynamics {
@@ -48,8 +49,8 @@ ModalModel without_window(ModalModel model, double decay_per_s) {
     const double omega = rad_per_s_from_hz(mode.frequency_hz), zeta = mode.damping_ratio;
     if (zeta * omega <= decay_per_s) {
       if (mode.out_of_band) continue;
-      throw NoAnswer("the mode at " + std::to_string(mode.frequency_hz) + " Hz decays by " +
-                     std::to_string(zeta * omega) + " 1/s, less than the window alone");
+      throw NoAnswer("the mode at " + number_text(mode.frequency_hz) + " Hz decays by " +
+                     number_text(zeta * omega) + " 1/s, less than the window alone");
     }
     set_pole(mode, mode.pole() + decay_per_s);
     if (model.covariance.size() == 0) continue;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "base/parallel.h"
 #include "base/units.h"
 #include "milling/depth_scan.h"
@@ -31,7 +32,7 @@ constexpr double kLeastShare = 1e-5;    // of the largest depth that is looked a
 constexpr int kStagnation = 3;          // refinements without improvement, once below
 constexpr double kNearRounding = 1e-5;  // this: rounding is what is left
 [[noreturn]] void fail_at(double revolutions_per_s, const std::string& what) {
-  throw NoAnswer("at " + std::to_string(60 * revolutions_per_s) + " rpm " + what +
+  throw NoAnswer("at " + number_text(60 * revolutions_per_s) + " rpm " + what +
                  ": leave fast modes out with --modes, raise the speed, or lower the largest depth");
 }
 

@@ -246,8 +246,7 @@ ModalFit fit_modes(const dynamics::FrequencyResponse& measured, const FitOptions
     const double largest = entry.h.cwiseAbs().maxCoeff();
     if (largest == 0 || (largest > kLeastReceptance && largest < kLargestReceptance)) continue;
     throw InvalidArgument(entry.response + entry.reference +
-                          ": expected receptances of a usual size in m/N, not up to " +
-                          printed("%g", largest));
+                          ": expected receptances of a usual size in m/N, not up to " + number_text(largest));
   }
   const std::vector<Group> groups = groups_of(measured, options);
   ModalFit fit;
@@ -302,7 +301,7 @@ ModalFit fit_modes(const dynamics::FrequencyResponse& measured, const FitOptions
     fit.warnings.push_back("missing entries " + missing + ": these directions are taken as uncoupled");
   }
   if (fit.limited_by_model) {
-    const std::string left = percent(fit.relative_error) + " of the curves";
+    const std::string left = percent_text(fit.relative_error) + " of the curves";
     const bool restricted = fit.mode_model != ModeModel::kNonsymmetric;
     if (!options.modes && fit.relative_error > kNoFit) {
       throw NoAnswer(restricted

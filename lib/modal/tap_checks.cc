@@ -38,7 +38,7 @@ constexpr double kWrongSign = 0.8, kPoorCoherence = 0.8, kNotReciprocal = 0.1;
 constexpr double kOnePeriod = 0.25;
 constexpr double kLargestPeak = 1e-2, kSmallestPeak = 1e-11;  // m/N
 
-std::string number(double value) { return printed("%.3g", value); }
+std::string number(double value) { return number_text(value, 3); }
 
 std::string name_of(const dynamics::FrequencyResponseEntry& entry) {
   return "H" + entry.response + entry.reference;
@@ -263,7 +263,7 @@ class TapChecks {
             "(--quantity), or was it one already? The modes would not be the tool's");
       } else if (imaginary > kWrongSign) {
         say(name + ": a driving point's imaginary part is negative, this is positive on " +
-            percent(imaginary) +
+            percent_text(imaginary) +
             (slope > 0.5
                  ? ": is it an acceleration (--quantity)? Else the sign of response or force is swapped"
              : slope < -2.5
@@ -304,8 +304,8 @@ class TapChecks {
     if (difference.empty()) return;
     const double index = median(std::move(difference)), of_noise = median(std::move(noise));
     if (index < std::max(kNotReciprocal, 3 * of_noise)) return;
-    say("cross entries differ from their mirror images by " + percent(index) + ", noise alone would by " +
-        percent(of_noise) +
+    say("cross entries differ from their mirror images by " + percent_text(index) +
+        ", noise alone would by " + percent_text(of_noise) +
         ": not reciprocal, as a controlled robot is, or taps at other places than the sensor's; the modes "
         "follow what was measured");
   }
@@ -322,10 +322,11 @@ class TapChecks {
       if (entry.coherence[i] < kPoorCoherence) poor.push_back(i);
     }
     if (poor.size() * 20 < responding.size()) return;
-    std::string text = name_of(entry) + ": coherence below " + number(kPoorCoherence) + " on " +
-                       percent(static_cast<double>(poor.size()) / static_cast<double>(responding.size())) +
-                       " of the lines that respond, from " + number(hz_[poor.front()]) + " to " +
-                       number(hz_[poor.back()]) + " Hz";
+    std::string text =
+        name_of(entry) + ": coherence below " + number(kPoorCoherence) + " on " +
+        percent_text(static_cast<double>(poor.size()) / static_cast<double>(responding.size())) +
+        " of the lines that respond, from " + number(hz_[poor.front()]) + " to " + number(hz_[poor.back()]) +
+        " Hz";
     const auto delay = time_between_hits(entry);
     text += delay ? ", with dips every " + number(1 / *delay) + " Hz, as of a second hit " +
                         number(1e3 * *delay) + " ms after the first"

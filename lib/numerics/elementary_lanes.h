@@ -38,6 +38,10 @@ STABLECUT_INLINE V angle_of(const V& y, const V& x) {
   return y < 0 ? -angle : angle;
 }
 
+/// Last powers of the series by Horner's rule, by scripts/derive/sine_cosine_series.py: of the cosine and (less
+/// the factor r) the sine up to pi/4, and of the cosine up to pi/3.
+inline constexpr int kCosinePower = 16, kSinePower = 14, kThirdPower = 18;
+
 /// Sine and cosine of angles below 1e5 rad in size, to 3e-16. Reduced to |r| <= pi/4 by pi/2 in three parts,
 /// whose products with a small whole number are exact; then the series, whose next terms are below 5e-17.
 template <typename V>
@@ -48,9 +52,9 @@ STABLECUT_INLINE void sine_and_cosine(const V& angle, V& sine, V& cosine) {
   const V r = ((angle - k * kHigh) - k * kMiddle) - k * kLow;
   const V r2 = r * r;
   V s = one, c = one;
-  for (int n = 16; n >= 2; n -= 2) {
+  for (int n = kCosinePower; n >= 2; n -= 2) {
     c = 1 - r2 * c * (1.0 / (n * (n - 1)));
-    if (n <= 14) s = 1 - r2 * s * (1.0 / (n * (n + 1)));
+    if (n <= kSinePower) s = 1 - r2 * s * (1.0 / (n * (n + 1)));
   }
   s = r * s;
   const V quarter = k - 4 * nearest_whole(0.25 * k - 0.375);
@@ -64,7 +68,7 @@ template <typename V>
 STABLECUT_INLINE V cosine_of_small(const V& angle) {
   const V square = angle * angle;
   V cosine = V{} + 1;
-  for (int n = 18; n >= 2; n -= 2) cosine = 1 - square * cosine * (1.0 / (n * (n - 1)));
+  for (int n = kThirdPower; n >= 2; n -= 2) cosine = 1 - square * cosine * (1.0 / (n * (n - 1)));
   return cosine;
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "receptance/coupling.h"
 
 namespace stablecut::receptance {
@@ -33,10 +34,10 @@ Waves waves_of(const BeamSegment& s, BeamTheory theory, double omega) {
   for (const double size :
        {s.length_m, s.outer_diameter_m, s.youngs_modulus_pa, s.density_kg_per_m3, omega}) {
     if (!(size > 0))
-      throw InvalidArgument("beam: " + std::to_string(size) + ": expected sizes and a frequency above 0");
+      throw InvalidArgument("beam: " + number_text(size) + ": expected sizes and a frequency above 0");
   }
   if (!(s.inner_diameter_m >= 0 && s.inner_diameter_m < s.outer_diameter_m)) {
-    throw InvalidArgument("beam: inner diameter " + std::to_string(s.inner_diameter_m) +
+    throw InvalidArgument("beam: inner diameter " + number_text(s.inner_diameter_m) +
                           " m: expected at least 0 and less than the outer");
   }
   const double pi = std::numbers::pi;

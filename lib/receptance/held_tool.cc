@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/number_text.h"
 
 namespace stablecut::receptance {
 namespace {
@@ -35,8 +36,8 @@ void check_on(const BeamChain& chain, double distance_m) {
   double length = 0;
   for (const BeamSegment& segment : chain) length += segment.length_m;
   if (!(distance_m >= 0 && distance_m <= length * (1 + 1e-12))) {
-    throw InvalidArgument("position " + std::to_string(1e3 * distance_m) + " mm: expected 0 to " +
-                          std::to_string(1e3 * length) + " mm, a place on the tool");
+    throw InvalidArgument("position " + number_text(1e3 * distance_m) + " mm: expected 0 to " +
+                          number_text(1e3 * length) + " mm, a place on the tool");
   }
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "base/units.h"
 #include "dynamics/synthesis.h"
 #include "receptance/artefact.h"
@@ -127,8 +128,8 @@ class HolderBuilder {
     for (const Tap& tap : taps_) {
       const double farthest = std::max(tap.response_m, tap.reference_m);
       if (length > 0 && farthest > length * (1 + 1e-12)) {
-        throw InvalidArgument("position " + std::to_string(1e3 * farthest) +
-                              " mm: expected a place on the artefact, up to " + std::to_string(1e3 * length) +
+        throw InvalidArgument("position " + number_text(1e3 * farthest) +
+                              " mm: expected a place on the artefact, up to " + number_text(1e3 * length) +
                               " mm");
       }
     }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "base/units.h"
 #include "dynamics/noise.h"
 
@@ -71,7 +72,7 @@ void remove_sensor(Taps& taps, double mass_kg, const Eigen::VectorXd& frequency_
     };
     if (find(measured, tap.response, tap.response, a, a) == nullptr) {
       throw InvalidArgument(std::string("the direct receptance ") + kCoordinates[tap.response] +
-                            " at the sensor's place, " + std::to_string(1e3 * a) +
+                            " at the sensor's place, " + number_text(1e3 * a) +
                             " mm: missing, and needed to take its mass away");
     }
     const Eigen::VectorXcd own = curve(tap.response, tap.response, a), away = curve(tap.response, other, a);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "base/units.h"
 
 namespace stablecut::robot {
@@ -55,7 +56,7 @@ InverseKinematics::InverseKinematics(const Robot& robot)
     : frame6_from_tool_(robot.tool_in_frame6().inverse()), home_from_base_(Eigen::Isometry3d::Identity()) {
   if (const auto bad = unsupported_geometry(robot)) {
     throw InvalidArgument("joint " + robot.joints[bad->joint].name + ": " + bad->field + " " +
-                          std::to_string(bad->value) + ": expected " + bad->expected);
+                          number_text(bad->value) + ": expected " + bad->expected);
   }
   const auto& j = robot.joints;
   for (const Joint& joint : j) {

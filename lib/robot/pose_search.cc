@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "base/parallel.h"
 #include "base/units.h"
 #include "robot/pose_refinement.h"
@@ -147,11 +148,7 @@ std::vector<ScanBest> starts_outside(const PlaneScan& scan) {
       worst = j;
     }
   }
-  const auto degrees = [](double rad) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.1f", degrees_from_radians(rad));
-    return std::string(text);
-  };
+  const auto degrees = [](double rad) { return number_text(degrees_from_radians(rad), 3); };
   if (least < task.limit_margin_rad) {
     throw NoAnswer("no reachable pose: at best joint " + robot.joints[worst].name + " would be " +
                    (least < 0 ? degrees(-least) + " degrees outside its limits"

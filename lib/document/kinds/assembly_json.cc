@@ -4,13 +4,14 @@
 #include <map>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "base/range.h"
 #include "base/units.h"
 #include "document/kinds/frf_json.h"
 #include "document/kinds/modal_table_json.h"
 #include "document/kinds/tool_joint_json.h"
 #include "document/measured/frf_import.h"
-#include "document/text/error.h"
+#include "document/text/data_error.h"
 #include "document/text/node.h"
 
 namespace stablecut::document {
@@ -74,7 +75,7 @@ void take_flutes(const Node& item, receptance::BeamSegment& segment) {
   if (!(segment.inner_diameter_m < segment.outer_diameter_m)) {
     item.at("inner_diameter_mm")
         .fail("expected less than the equivalent diameter of the flutes, " +
-              std::to_string(mm_from_metres(segment.outer_diameter_m)) + " mm");
+              number_text(mm_from_metres(segment.outer_diameter_m)) + " mm");
   }
 }
 
@@ -169,7 +170,7 @@ dynamics::FrequencyResponse receptances_from(const Node& node, const DocumentLoa
 
 std::string list_of_lines(const std::vector<double>& lines, std::size_t all) {
   return std::to_string(lines.size()) + " of " + std::to_string(all) + " lines (" +
-         short_number(lines.front()) + " to " + short_number(lines.back()) + " Hz)";
+         number_text(lines.front()) + " to " + number_text(lines.back()) + " Hz)";
 }
 
 class AssemblyReader {
@@ -316,7 +317,7 @@ class AssemblyReader {
       std::string text;
       const auto add = [&](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
       if (quality.slopes == receptance::SlopeSource::kFiniteDifference) {
-        add("slopes by a finite difference over " + short_number(mm_from_metres(quality.spacing_m)) +
+        add("slopes by a finite difference over " + number_text(mm_from_metres(quality.spacing_m)) +
             " mm, good where the part bends little over it" +
             (quality.second_difference ? "" : ", and moments to slopes as l n / h, exact for one mode only"));
       }

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/units.h"
-#include "document/text/error.h"
+#include "document/text/data_error.h"
 #include "document/text/node.h"
 
 namespace stablecut::document {

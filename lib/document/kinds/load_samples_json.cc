@@ -2,7 +2,7 @@
 
 #include "base/units.h"
 #include "document/kinds/joints_json.h"
-#include "document/text/error.h"
+#include "document/text/data_error.h"
 
 namespace stablecut::document {
 namespace {

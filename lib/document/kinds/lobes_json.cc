@@ -6,7 +6,7 @@
 #include <map>
 
 #include "base/units.h"
-#include "document/text/error.h"
+#include "document/text/data_error.h"
 #include "document/text/node.h"
 
 namespace stablecut::document {

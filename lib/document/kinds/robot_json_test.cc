@@ -8,7 +8,7 @@
 #include "base/units.h"
 #include "document/kinds/joints_json.h"
 #include "document/kinds/load_samples_json.h"
-#include "document/text/error.h"
+#include "document/text/data_error.h"
 #include "robot/inverse.h"
 
 using namespace stablecut;

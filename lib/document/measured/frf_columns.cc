@@ -4,10 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "base/number_text.h"
 #include "base/range.h"
 #include "base/units.h"
 #include "document/measured/frf_column_name.h"
-#include "document/text/error.h"
+#include "document/text/data_error.h"
 #include "document/text/plain_text.h"
 #include "document/text/table_text.h"
 
@@ -396,12 +397,12 @@ class ColumnReader {
       const bool radians = columns.radians.value_or(largest <= 1.001 * kPi);
       if (!columns.radians) {
         remarks_.push_back("the phase of " + entry.response + entry.reference + " has no unit: up to " +
-                           short_number(largest) + ", taken as " + (radians ? "radians" : "degrees"));
+                           number_text(largest) + ", taken as " + (radians ? "radians" : "degrees"));
       }
       for (auto& value : entry.h) {
         if (!columns.decibel && value.real() < 0) {
           throw DataError(source_.name, "",
-                          entry.response + entry.reference + ": magnitude " + short_number(value.real()),
+                          entry.response + entry.reference + ": magnitude " + number_text(value.real()),
                           "expected none below 0 (is it in dB?)");
         }
         const double magnitude = columns.decibel ? std::pow(10, value.real() / 20) : value.real();

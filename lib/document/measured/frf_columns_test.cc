@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <complex>
 
-#include "document/text/error.h"
+#include "document/text/data_error.h"
 
 using namespace stablecut;
 using namespace stablecut::document;

@@ -8,7 +8,7 @@
 #include "document/kinds/frf_json.h"
 #include "document/measured/frf_import.h"
 #include "document/measured/frf_uff.h"
-#include "document/text/error.h"
+#include "document/text/data_error.h"
 
 using namespace stablecut;
 using namespace stablecut::document;

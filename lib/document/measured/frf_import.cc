@@ -6,7 +6,7 @@
 #include "document/kinds/frf_json.h"
 #include "document/measured/frf_columns.h"
 #include "document/measured/frf_uff.h"
-#include "document/text/error.h"
+#include "document/text/data_error.h"
 
 namespace stablecut::document {
 namespace {

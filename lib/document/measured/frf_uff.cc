@@ -6,8 +6,9 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "base/range.h"
-#include "document/text/error.h"
+#include "document/text/data_error.h"
 #include "document/text/plain_text.h"
 
 namespace stablecut::document {
@@ -264,7 +265,7 @@ class Collector {
     Eigen::VectorXd lines = to_hz * function.abscissa;
     for (Eigen::Index i = 0; i < lines.size(); ++i) {
       if (lines[i] >= 0 && std::isfinite(lines[i]) && (i == 0 || lines[i] > lines[i - 1])) continue;
-      throw DataError(source_.name, function.place(i == 0 ? 7 : 12), short_number(lines[i]) + " Hz",
+      throw DataError(source_.name, function.place(i == 0 ? 7 : 12), number_text(lines[i]) + " Hz",
                       "expected increasing frequencies, none below 0 Hz");
     }
     return lines;
@@ -340,7 +341,7 @@ class Collector {
       if (std::isfinite(entry.h[i].real()) && std::isfinite(entry.h[i].imag())) continue;
       // At 0 Hz, where nothing is learnt, many programs divide by zero.
       if (lines[i] > 0) {
-        throw DataError(source_.name, function.place(12), "line at " + short_number(lines[i]) + " Hz",
+        throw DataError(source_.name, function.place(12), "line at " + number_text(lines[i]) + " Hz",
                         "expected a finite number");
       }
       entry.h[i] = 0;
@@ -363,7 +364,7 @@ class Collector {
         function.values.real().array().isFinite().select(function.values.real(), 0.0).cwiseMax(0);
     const double largest = entry->coherence.maxCoeff();
     if (largest > kPercentFrom) {
-      say(function.place(12) + ": coherences up to " + short_number(largest) + ": taken as percent");
+      say(function.place(12) + ": coherences up to " + number_text(largest) + ": taken as percent");
       entry->coherence /= 100;
     }
     entry->coherence = entry->coherence.cwiseMin(1).eval();

@@ -8,7 +8,7 @@
 #include <functional>
 #include <iterator>
 
-#include "document/text/error.h"
+#include "document/text/data_error.h"
 
 using namespace stablecut;
 using namespace stablecut::document;

@@ -6,7 +6,7 @@
 
 #include "base/units.h"
 #include "document/kinds/load_samples_json.h"
-#include "document/text/error.h"
+#include "document/text/data_error.h"
 #include "document/text/plain_text.h"
 #include "document/text/table_text.h"
 

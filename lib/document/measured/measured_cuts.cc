@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "document/text/error.h"
+#include "document/text/data_error.h"
 #include "document/text/node.h"
 #include "document/text/table_text.h"
 

@@ -8,7 +8,7 @@
 
 #include "base/range.h"
 #include "document/measured/fortran_number.h"
-#include "document/text/error.h"
+#include "document/text/data_error.h"
 #include "document/text/plain_text.h"
 
 namespace stablecut::document {

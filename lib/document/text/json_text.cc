@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "document/text/error.h"
+#include "document/text/data_error.h"
 
 namespace stablecut::document {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <random>
 
-#include "document/text/error.h"
+#include "document/text/data_error.h"
 
 using namespace stablecut;
 using namespace stablecut::document;

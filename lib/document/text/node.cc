@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "document/text/error.h"
+#include "document/text/data_error.h"
 
 namespace stablecut::document {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/range.h"
-#include "document/text/error.h"
+#include "document/text/data_error.h"
 #include "document/text/plain_text.h"
 
 namespace stablecut::document {

@@ -1,4 +1,4 @@
-#include "document/text/error.h"
+#include "document/text/data_error.h"
 
 #include <algorithm>
 #include <string_view>
@@ -38,8 +38,8 @@ std::size_t utf8_length(std::string_view text) {
 }  // namespace
 
 DataError::DataError(const std::string& file, const std::string& place, const std::string& value,
-                     const std::string& expected)
-    : std::runtime_error(joined(file, place, shown(value), expected)) {}
+                     const std::string& expected, Remedy remedy)
+    : std::runtime_error(joined(file, place, shown(value), expected)), remedy_(remedy) {}
 
 std::string pointer_step(const std::string& pointer, const std::string& step) {
   std::string result = pointer + '/';
@@ -56,11 +56,9 @@ std::string pointer_step(const std::string& pointer, const std::string& step) {
 
 std::string line_place(long line) { return "line " + std::to_string(line); }
 
-std::string short_number(double value) { return printed("%g", value); }
-
 std::string lines_text(const Eigen::VectorXd& frequency_hz) {
-  return std::to_string(frequency_hz.size()) + " lines from " + short_number(frequency_hz[0]) + " to " +
-         short_number(frequency_hz[frequency_hz.size() - 1]) + " Hz";
+  return std::to_string(frequency_hz.size()) + " lines from " + number_text(frequency_hz[0]) + " to " +
+         number_text(frequency_hz[frequency_hz.size() - 1]) + " Hz";
 }
 
 std::string shown(std::string value) {
