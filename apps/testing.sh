@@ -2,6 +2,7 @@
 # shellcheck shell=bash
 set -uo pipefail
 
+# shellcheck disable=SC2034  # read by the scripts that source this
 data=$SOURCE/testdata
 scratch=$(mktemp -d)
 cd "$scratch" || exit 1

@@ -1,5 +1,6 @@
 # Shared by the plot scripts: options, the gnuplot terminal. Source it, then call plot_options "$@".
-# shellcheck shell=bash
+# What it sets is read, and what it reads is set, by the scripts that source it.
+# shellcheck shell=bash disable=SC2034,SC2154
 
 plot_fail() { echo "$(basename "$0"): $1" >&2; exit "${2:-64}"; }
 

@@ -27,7 +27,7 @@ optimum() {
   run "$@" -o best.json
   check_jq "$name" best.json "def near(a; b): (a / b - 1 | fabs) < 0.001; .best as \$b | (\$b.tcp_mm[0:2] | map(. * .) | add | sqrt) as \$radius | $filter"
 }
-down=(--force 0,0,-588.6 --limit-margin 0)
+down=(--force "0,0,-588.6" --limit-margin 0)
 optimum "1.6 m, deflection: on A2's limit" 'near($b.score; 197.3) and near($radius; 689) and ($b.joints_deg[1] + 130 | fabs) < 1e-6' --height 1600 --index deflection "${down[@]}"
 optimum "1.2 m, deflection: inside" 'near($b.score; 211.1) and near($radius; 898) and near($b.joints_deg[1]; -110.8)' --height 1200 --index deflection "${down[@]}"
 optimum "1.2 m, weakest: on A3's limit" 'near($b.score; 1.543e6) and ($b.joints_deg[2] - 144 | fabs) < 1e-6' --height 1200 --index weakest "${down[@]}"

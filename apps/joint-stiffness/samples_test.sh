@@ -16,7 +16,7 @@ samples() {
         deflection_mm: (.displacement_um | map(. / 1000))}]'
   done | jq -s '{format: "stablecut/load-samples/1", frame: "base", samples: add}'
 }
-three=(600,0,0 0,600,0 0,0,-600)
+three=("600,0,0" "0,600,0" "0,0,-600")
 close_to_truth='[.stiffness_n_m_per_rad, $truth[0].stiffness_n_m_per_rad] | transpose | map(select(.[0])) |
   length > 0 and all((.[0] / .[1] - 1 | fabs) < 1e-9)'
 

@@ -12,7 +12,7 @@ check_jq "all four values to 1e-6, in x and in y" found.json "$near"' .x == .y a
 rcsa-couple --joint found.json --no-provenance "$assembly" -o again.json
 check_jq "the joint couples to the tip it came from" again.json '[.h[0].re, $tip[0].h[0].re] | transpose | all((.[0] - .[1] | fabs) <= 1e-9 * (.[1] | fabs))' --slurpfile tip joint.json
 
-bounds=(--bounds k1=1e5:1e8,c1=0:100 --bounds k2=1e5:1e8,c2=0:100)
+bounds=(--bounds "k1=1e5:1e8,c1=0:100" --bounds "k2=1e5:1e8,c2=0:100")
 rcsa-couple --identify rigid.json --objective amplitude "${bounds[@]}" "$assembly" -o bound.json 2>log
 check_jq "the rigid cantilever within the paper's bounds" bound.json '.x | (.objective.value_m_per_n * 1e5 | . > 6.6 and . < 6.625) and .objective.name == "amplitude" and .at_bound[0:3] == [true, true, true] and .std.k1_n_per_m == null'
 for name in k1 c1 k2; do check "it says that $name is at its bound" grep -q "$name lies at its bound" log; done

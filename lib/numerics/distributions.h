@@ -9,7 +9,7 @@ double normal_cdf(double x);
 /// Probability that a Student t variable with `dof` > 0 degrees of freedom lies below x.
 double student_t_cdf(double x, double dof);
 
-/// The x below which a Student t variable lies with probability p in (0, 1); relative error 1e-12. An
+/// The x below which a Student t variable lies with probability p in (0, 1); relative error 1e-14. An
 /// infinite `dof` is the normal distribution.
 double student_t_quantile(double p, double dof);
 

@@ -4,21 +4,19 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
 
 #include "base/error.h"
 #include "numerics/eigenvalues.h"
+#include "numerics/francis_qr.h"
 #include "numerics/lanes.h"
 
 namespace stablecut::numerics {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kLargestNorm = 1e120;
 // Of a reflected vector; a smaller one is left as it is, nothing beside the rest.
 constexpr double kLeastSquare = 1e-280;
 constexpr int kRoundsBetween = 4;
-constexpr int kPatience = 60;  // sweeps for one eigenvalue
 
 // Lanes in memory, at whole cache lines: a vector that lies across two costs twice as much.
 class LaneArray {
@@ -214,7 +212,7 @@ STABLECUT_WIDE void sweep(double* h, Eigen::Index stride, Eigen::Index first, Ei
 // beside the matrix.
 constexpr double kNothing = 1e-100;
 STABLECUT_INLINE bool is_split(double below, double size, double norm) {
-  return std::abs(below) <= std::max(kEpsilon * size, kNothing * norm);
+  return std::abs(below) <= std::max(kRounding * size, kNothing * norm);
 }
 
 // The start of the lowest unreduced block that ends at `highs` in each lane.
@@ -224,7 +222,7 @@ STABLECUT_WIDE void find_splits(const double* h, Eigen::Index stride, Eigen::Ind
   Lanes low{}, before = absolute(load_lanes(h));
   for (Eigen::Index l = 1; l <= last; ++l) {
     const double* row = h + l * stride + l * kLanes;
-    const Lanes here = absolute(load_lanes(row)), limit = kEpsilon * (before + here);
+    const Lanes here = absolute(load_lanes(row)), limit = kRounding * (before + here);
     const Lanes least = limit > nothing ? limit : nothing;
     const Lanes place = Lanes{} + static_cast<double>(l);
     const Lanes split = absolute(load_lanes(row - kLanes)) <= least ? place : Lanes{};
@@ -275,7 +273,9 @@ class LaneQr {
         if (own.high < 0) continue;
         first = std::min(first, own.low);
         last = std::max(last, own.high);
-        shifts(own, lane, sum[lane], product[lane]);
+        const ShiftPair pair = shifts(own, lane);
+        sum[lane] = pair.sum;
+        product[lane] = pair.product;
       }
       if (last < 0) break;
       sweep(h_.data, h_.stride, first, last, low, high, sum, product, reflections_.data());
@@ -317,27 +317,16 @@ class LaneQr {
 
   void two_values(LaneProgress& own, Eigen::Index lane) {
     const Eigen::Index i = own.high - 1, j = own.high;
-    const double a = h_.at(i, i, lane), d = h_.at(j, j, lane), bc = h_.at(i, j, lane) * h_.at(j, i, lane);
-    const double half = (a - d) / 2, discriminant = half * half + bc;
-    if (discriminant < 0) {
-      own.found.emplace_back(d + half, std::sqrt(-discriminant));
-      own.found.push_back(std::conj(own.found.back()));
-    } else {
-      const double larger = half + std::copysign(std::sqrt(discriminant), half);  // no cancellation
-      own.found.emplace_back(d + larger, 0.0);
-      own.found.emplace_back(larger == 0 ? d : d - bc / larger, 0.0);
-    }
+    const auto [first, second] =
+        block_eigenvalues(h_.at(i, i, lane), h_.at(i, j, lane) * h_.at(j, i, lane), h_.at(j, j, lane));
+    own.found.push_back(first);
+    own.found.push_back(second);
   }
 
-  // The eigenvalues of the last 2x2 block, or something else when stuck.
-  void shifts(const LaneProgress& own, Eigen::Index lane, double& sum, double& product) const {
+  ShiftPair shifts(const LaneProgress& own, Eigen::Index lane) const {
     const Eigen::Index i = own.high - 1, j = own.high;
-    sum = h_.at(i, i, lane) + h_.at(j, j, lane);
-    product = h_.at(i, i, lane) * h_.at(j, j, lane) - h_.at(i, j, lane) * h_.at(j, i, lane);
-    if (own.sweeps % 10 != 0) return;
-    const double size = std::abs(h_.at(j, i, lane)) + std::abs(h_.at(i, i - 1, lane));
-    sum = 1.5 * size;
-    product = size * size;
+    return shifts_of(h_.at(i, i, lane), h_.at(i, j, lane), h_.at(j, i, lane), h_.at(j, j, lane),
+                     h_.at(i, i - 1, lane), own.sweeps);
   }
 
   LaneMatrix& h_;

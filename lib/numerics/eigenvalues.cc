@@ -4,19 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
+#include <tuple>
 #include <vector>
 
 #include "base/error.h"
+#include "numerics/francis_qr.h"
 #include "numerics/lanes.h"
 
 namespace stablecut::numerics {
 namespace {
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr int kPatience = 60;  // sweeps for one eigenvalue
 
 // I - (1, q, r)^T (x, y, z), which takes three rows or columns (or two, with q and z unused) to new ones.
 struct Reflection {
@@ -76,12 +74,13 @@ class HessenbergQr {
         high -= 1;
         sweeps = 0;
       } else if (low == high - 1) {
-        two_values(high, values);
+        std::tie(values[high - 1], values[high]) = block_eigenvalues(
+            h_(high - 1, high - 1), h_(high - 1, high) * h_(high, high - 1), h_(high, high));
         high -= 2;
         sweeps = 0;
       } else {
         if (++sweeps > kPatience) return false;
-        sweep(low, high, sweeps % 10 == 0);
+        sweep(low, high, sweeps);
       }
     }
     return true;
@@ -93,7 +92,7 @@ class HessenbergQr {
     for (Eigen::Index l = high; l > 0; --l) {
       double size = std::abs(h_(l - 1, l - 1)) + std::abs(h_(l, l));
       if (size == 0) size = norm_;
-      if (std::abs(h_(l, l - 1)) <= kEpsilon * size) {
+      if (std::abs(h_(l, l - 1)) <= kRounding * size) {
         h_(l, l - 1) = 0;
         return l;
       }
@@ -101,31 +100,9 @@ class HessenbergQr {
     return 0;
   }
 
-  void two_values(Eigen::Index high, Eigen::VectorXcd& values) const {
-    const double a = h_(high - 1, high - 1), d = h_(high, high);
-    const double bc = h_(high - 1, high) * h_(high, high - 1);
-    const double half = (a - d) / 2;
-    const double discriminant = half * half + bc;
-    const double root = std::sqrt(std::abs(discriminant));
-    if (discriminant < 0) {
-      values[high - 1] = {d + half, root};
-      values[high] = {d + half, -root};
-    } else {
-      const double larger = half + std::copysign(root, half);  // no cancellation
-      values[high - 1] = d + larger;
-      values[high] = larger == 0 ? d : d - bc / larger;
-    }
-  }
-
-  void sweep(Eigen::Index low, Eigen::Index high, bool exceptional) {
-    // Sum and product of the two shifts: the eigenvalues of the last 2x2 block, or something else when stuck.
-    double sum = h_(high - 1, high - 1) + h_(high, high);
-    double product = h_(high - 1, high - 1) * h_(high, high) - h_(high - 1, high) * h_(high, high - 1);
-    if (exceptional) {
-      const double size = std::abs(h_(high, high - 1)) + std::abs(h_(high - 1, high - 2));
-      sum = 1.5 * size;
-      product = size * size;
-    }
+  void sweep(Eigen::Index low, Eigen::Index high, int sweeps) {
+    const auto [sum, product] = shifts_of(h_(high - 1, high - 1), h_(high - 1, high), h_(high, high - 1),
+                                          h_(high, high), h_(high - 1, high - 2), sweeps);
     // First column of (H - s1)(H - s2), as low in the block as two small subdiagonals allow.
     double p = 0, q = 0, r = 0;
     Eigen::Index start = high - 2;
@@ -141,7 +118,7 @@ class HessenbergQr {
       if (start == low) break;
       const double left = std::abs(h_(start, start - 1)) * (std::abs(q) + std::abs(r));
       const double right = std::abs(p) * (std::abs(h_(start - 1, start - 1)) + std::abs(a) + std::abs(b));
-      if (left <= kEpsilon * right) break;
+      if (left <= kRounding * right) break;
     }
     // Chase the bulge: reflections I - (1, q, r) (x, y, z)^T of rows and columns k, k+1, k+2.
     for (Eigen::Index k = start; k < high; ++k) {
@@ -189,8 +166,7 @@ void check_finite(const Eigen::MatrixXd& matrix) {
 
 Eigen::VectorXcd hessenberg_eigenvalues(const RowMatrix& hessenberg) {
   Eigen::VectorXcd values;
-  if (HessenbergQr(hessenberg).run(values)) return values;
-  return Eigen::EigenSolver<Eigen::MatrixXd>(hessenberg, false).eigenvalues();
+  return HessenbergQr(hessenberg).run(values) ? values : eigenvalues(hessenberg);
 }
 
 // Norm of what is not reduced yet, over the norm of what is, at which the largest modulus is looked for, and
@@ -295,7 +271,7 @@ std::complex<double> followed(const Eigen::Ref<const Eigen::MatrixXd>& h, std::c
     }
     const std::complex<double> change = rest / rest_slope;
     value -= change;
-    if (std::abs(change) <= kEpsilon * std::abs(value)) break;
+    if (std::abs(change) <= kRounding * std::abs(value)) break;
   }
   return value;
 }
@@ -304,10 +280,7 @@ std::complex<double> followed(const Eigen::Ref<const Eigen::MatrixXd>& h, std::c
 
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) {
   check_finite(matrix);
-  if (matrix.rows() == 1) return matrix.cast<std::complex<double>>();
-  Reduction reduction(matrix);
-  for (Eigen::Index k = 0; k + 2 < matrix.rows(); ++k) reduction.reduce_column(k);
-  return hessenberg_eigenvalues(reduction.reduced(matrix.rows()));
+  return Eigen::EigenSolver<Eigen::MatrixXd>(matrix, false).eigenvalues();
 }
 
 Eigen::VectorXcd leading_eigenvalues(Eigen::MatrixXd a, Eigen::Index states) {

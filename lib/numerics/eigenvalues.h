@@ -5,10 +5,8 @@
 
 namespace stablecut::numerics {
 
-/// All eigenvalues of a square real matrix, in no particular order. Householder reduction to Hessenberg form,
-/// then the implicit double-shift QR iteration (Francis) confined to the active block: some 6 n^3 flops, less
-/// than half of what a Schur form costs. Backward stable, as the textbook algorithm. Where the iteration
-/// stalls (not seen), the Schur form decides. Throws InvalidArgument when an entry is not finite.
+/// All eigenvalues of a square real matrix, in no particular order, by Eigen's Schur form: where the faster
+/// ways of this room fail. Throws InvalidArgument when an entry is not finite.
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
 
 /// Share of the largest modulus from which on an eigenvalue is a leading one.

@@ -38,8 +38,8 @@ STABLECUT_INLINE V angle_of(const V& y, const V& x) {
   return y < 0 ? -angle : angle;
 }
 
-/// Last powers of the series by Horner's rule, by scripts/derive/sine_cosine_series.py: of the cosine and (less
-/// the factor r) the sine up to pi/4, and of the cosine up to pi/3.
+/// Last powers of the series by Horner's rule, by scripts/derive/sine_cosine_series.py: of the cosine and
+/// (less the factor r) the sine up to pi/4, and of the cosine up to pi/3.
 inline constexpr int kCosinePower = 16, kSinePower = 14, kThirdPower = 18;
 
 /// Sine and cosine of angles below 1e5 rad in size, to 3e-16. Reduced to |r| <= pi/4 by pi/2 in three parts,

@@ -11,11 +11,15 @@ namespace {
 
 using Complex = std::complex<double>;
 
+constexpr double kSeriesReach = 0.5;  // |w| below which the quotient is summed
+constexpr int kSeriesTerms = 20;
+constexpr Eigen::Index kTail = 24;  // rows beyond the last wanted moment, besides |Re z|
+
 // (exp(w) - 1) / w without cancellation.
 Complex exponential_quotient(Complex w) {
-  if (std::abs(w) > 0.5) return (std::exp(w) - 1.0) / w;
+  if (std::abs(w) > kSeriesReach) return (std::exp(w) - 1.0) / w;
   Complex term = 1, sum = 1;
-  for (int k = 2; k < 20; ++k) {
+  for (int k = 2; k < kSeriesTerms; ++k) {
     term *= w / static_cast<double>(k);
     sum += term;
   }
@@ -27,7 +31,7 @@ Complex exponential_quotient(Complex w) {
 Eigen::VectorXcd exponential_moments(Complex z, double x, Eigen::Index count) {
   const auto forward =
       std::abs(z.imag()) < 1 ? Eigen::Index{0} : static_cast<Eigen::Index>(std::abs(z.imag()));
-  const Eigen::Index tail = std::max(count, forward) + 24 + static_cast<Eigen::Index>(std::abs(z.real()));
+  const Eigen::Index tail = std::max(count, forward) + kTail + static_cast<Eigen::Index>(std::abs(z.real()));
   const Eigen::VectorXd p = legendre_values(x, tail + 2);
   const auto jump = [&](Eigen::Index j) { return p[j + 1] - p[j - 1]; };
   const auto odd = [](Eigen::Index j) { return static_cast<double>(2 * j + 1); };

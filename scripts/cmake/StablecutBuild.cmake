@@ -11,7 +11,8 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
 
 option(STABLECUT_WARNINGS_AS_ERRORS "Stop at any compiler warning in the project's own code" OFF)
-option(STABLECUT_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
+option(STABLECUT_ASSERTIONS "Keep the assertions of Eigen, of the standard library and our own" OFF)
+set(STABLECUT_SANITIZE "" CACHE STRING "Sanitizers to build with, such as address,undefined or thread")
 option(STABLECUT_FUZZ "Build the fuzzers of the readers, with clang and the sanitizers" OFF)
 include(CTest)
 
@@ -29,10 +30,26 @@ target_compile_definitions(stablecut_settings INTERFACE EIGEN_DONT_PARALLELIZE E
 if(STABLECUT_FUZZ)
   target_compile_options(stablecut_settings INTERFACE -fsanitize=fuzzer-no-link)
 endif()
-if(STABLECUT_SANITIZE)
-  target_compile_options(stablecut_settings INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all)
-  target_link_options(stablecut_settings INTERFACE -fsanitize=address,undefined)
+if(STABLECUT_ASSERTIONS)
+  target_compile_options(stablecut_settings INTERFACE -UNDEBUG)
+  target_compile_definitions(stablecut_settings INTERFACE _GLIBCXX_ASSERTIONS)
 endif()
+if(STABLECUT_SANITIZE)
+  target_compile_options(stablecut_settings INTERFACE -fsanitize=${STABLECUT_SANITIZE} -fno-sanitize-recover=all)
+  target_link_options(stablecut_settings INTERFACE -fsanitize=${STABLECUT_SANITIZE})
+endif()
+
+# stablecut_vector_kernels(FILE...): files whose functions are built for several widths of vector registers. Their vectors
+# are never passed between files; square roots need no errno; wide vectors are copied whole (lib/numerics/README.md).
+include(CheckCXXCompilerFlag)
+check_cxx_compiler_flag("-mmove-max=256 -mstore-max=256" STABLECUT_HAVE_MOVE_MAX)
+function(stablecut_vector_kernels)
+  set(options -Wno-psabi -fno-math-errno)
+  if(STABLECUT_HAVE_MOVE_MAX)
+    list(APPEND options -mmove-max=256 -mstore-max=256)
+  endif()
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "${options}")
+endfunction()
 
 # stablecut_room(NAME SOURCES a.cc ... [LINK rooms and packages] [PRIVATE_LINK packages] [TESTS a_test.cc ...]
 #                [BENCHMARKS b_benchmark.cc ...])

@@ -7,7 +7,7 @@ lib/modal/mode_parameters.cc. Rounding by adding 1.5 2^52: kShift in lib/numeric
 standard gravity, by definition: lib/document/measured/frf_unit.cc. Weights 1, -4, 6, -4, 1 over the root of 70 of
 fourth differences on equal lines: lib/dynamics/noise.cc. Numbers of universal files, dataset 164:
 lib/document/measured/universal_file_writer.cc. Sum and product of the exceptional shifts of EISPACK's HQR, shifts 3/4
-s +- sqrt(-7/16) s: 1.5 s and s^2 in lib/numerics/eigenvalues.cc.
+s +- sqrt(-7/16) s: 1.5 s and s^2 in lib/numerics/francis_qr.h.
 
 Prints each number with the closed form; all are exact to the last digit that is printed.
 """
@@ -29,9 +29,8 @@ checks = [
     ("lib/document/measured/frf_unit.cc", f"kPoundForce = {float(Fraction('0.45359237') * Fraction('9.80665'))!r};",
      "0.45359237 kg (definition of the pound) times standard gravity, N"),
     ("lib/document/measured/universal_file_writer.cc", f"{273.16:.17e}".replace("e", "D"), "273.16 in 18 digits"),
-    ("lib/numerics/eigenvalues.cc", f"sum = {float(2 * Fraction(3, 4))!r} * size;", "sum of the shifts"),
-    ("lib/numerics/eigenvalues.cc", "product = size * size;",
-     f"their product: (3/4)^2 + 7/16 = {Fraction(3, 4) ** 2 + Fraction(7, 16)}"),
+    ("lib/numerics/francis_qr.h", f"return {{{float(2 * Fraction(3, 4))!r} * size, size * size}};",
+     f"sum of the shifts, and their product: (3/4)^2 + 7/16 = {Fraction(3, 4) ** 2 + Fraction(7, 16)}"),
 ]
 weights = [(-1) ** k * comb(4, k) for k in range(5)]
 for path, text, why in checks:

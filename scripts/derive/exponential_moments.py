@@ -20,8 +20,7 @@ from source_check import stands_in
 
 mp.dps = 50
 SERIES, MARGIN = 20, 24
-texts = [f"for (int k = 2; k < {SERIES}; ++k)",
-         f"tail = std::max(count, forward) + {MARGIN} + static_cast<Eigen::Index>(std::abs(z.real()));"]
+texts = [f"kSeriesTerms = {SERIES};", f"kTail = {MARGIN};"]
 print("\n".join(texts))
 
 enough = 2
