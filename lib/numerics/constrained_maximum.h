@@ -1,4 +1,4 @@
-// The maximum of a function of few variables under inequalities, without derivatives.
+// The maximum of a smooth function of few variables under smooth inequalities.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,6 +7,7 @@
 
 namespace stablecut::numerics {
 
+/// Up to three variables.
 using Variables = Eigen::VectorXd;
 
 /// A function and its constraints at a point.
@@ -15,7 +16,7 @@ struct ConstrainedValue {
   Eigen::VectorXd constraints;  ///< each not below 0 where the point is allowed
 };
 
-/// Nothing where the function is not defined. Must not throw; the number of constraints never changes.
+/// Nothing where the function is not defined.
 using ConstrainedFunction = std::function<std::optional<ConstrainedValue>(const Variables&)>;
 
 struct ConstrainedMaximum {
@@ -23,12 +24,14 @@ struct ConstrainedMaximum {
   double value = 0;
 };
 
-/// Powell's COBYLA [Powell1994], as NLopt has it [Johnson2007], from `start` inside lower..upper (variables
-/// of order 1): linear models on a simplex of first size `radius`, which shrinks to 1e-10. The point returned
-/// is the best allowed one that was seen, so it is not worse than an allowed start; nothing when none was
-/// seen, or the function is not defined at the start. README.md, "Constrained maximum".
+/// Sequential quadratic programming from `start` inside lower..upper (variables of order 1): derivatives by
+/// central differences of step `difference`, a quadratic model of the Lagrangian in a trust region of first
+/// size `radius`, steps drawn back on to the constraints. The point returned is allowed and not worse than an
+/// allowed start; from a start that is not allowed it first looks for an allowed point, and returns nothing
+/// when it finds none.
 std::optional<ConstrainedMaximum> constrained_maximum(const ConstrainedFunction& function,
                                                       const Variables& start, const Variables& lower,
-                                                      const Variables& upper, double radius);
+                                                      const Variables& upper, double radius,
+                                                      double difference);
 
 }  // namespace stablecut::numerics

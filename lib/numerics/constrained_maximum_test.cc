@@ -30,16 +30,16 @@ TEST_CASE("an optimum inside") {
     return ConstrainedValue{-std::pow(x[0] - 0.3, 4) - std::pow(x[1] + 0.2 * x[0], 2), Eigen::VectorXd()};
   };
   const auto found =
-      constrained_maximum(function, variables({0.9, 0.9}), variables({-1, -1}), variables({1, 1}), 0.1);
+      constrained_maximum(function, variables({0.9, 0.9}), variables({-1, -1}), variables({1, 1}), 0.1, 1e-4);
   REQUIRE(found);
-  CHECK(found->value > -1e-8);
+  CHECK(found->value > -1e-9);
 }
 
 TEST_CASE("an optimum on a curved constraint, also along it") {
   // The point of the sphere nearest to the target, from the far side of it.
   const Variables target = variables({0.3, -0.4, 0.5});
   const auto found = constrained_maximum(near_target(target, 1, 1), variables({-0.9, 0.9, 0.1}),
-                                         variables({-2, -2, -2}), variables({2, 2, 2}), 0.05);
+                                         variables({-2, -2, -2}), variables({2, 2, 2}), 0.05, 1e-4);
   REQUIRE(found);
   CHECK((found->point - target.normalized()).norm() < 1e-6);
   CHECK(found->point.norm() >= 1);
@@ -48,8 +48,8 @@ TEST_CASE("an optimum on a curved constraint, also along it") {
 TEST_CASE("an optimum in a corner of constraint and bound, and from a start that is not allowed") {
   const Variables target = variables({3, 0.2});
   for (const auto& start : {variables({0.1, 0.1}), variables({0.5, 1.9})}) {
-    const auto found =
-        constrained_maximum(near_target(target, 1, -1), start, variables({0, 0.5}), variables({2, 2}), 0.1);
+    const auto found = constrained_maximum(near_target(target, 1, -1), start, variables({0, 0.5}),
+                                           variables({2, 2}), 0.1, 1e-4);
     REQUIRE(found);
     CHECK(found->point[0] == Approx(std::sqrt(0.75)).epsilon(1e-8));
     CHECK(found->point[1] == Approx(0.5).epsilon(1e-8));
@@ -60,14 +60,14 @@ TEST_CASE("an optimum in a corner of constraint and bound, and from a start that
 TEST_CASE("nothing allowed, nothing found; nothing free, nothing moved") {
   const Variables target = variables({3, 0});
   CHECK_FALSE(constrained_maximum(near_target(target, 1, -1), variables({2, 2}), variables({1.5, 1.5}),
-                                  variables({3, 3}), 0.1));
+                                  variables({3, 3}), 0.1, 1e-4));
   const auto constant = [](const Variables&) -> std::optional<ConstrainedValue> {
     return ConstrainedValue{7, Eigen::VectorXd::Constant(1, 1.0)};
   };
-  CHECK(constrained_maximum(constant, Variables(0), Variables(0), Variables(0), 0.1)->value == 7);
-  // Nothing is free, and the one point is not allowed.
+  CHECK(constrained_maximum(constant, Variables(0), Variables(0), Variables(0), 0.1, 1e-4)->value == 7);
+  // Nothing is free, and the one point there is, is not allowed.
   const auto refused = [](const Variables&) -> std::optional<ConstrainedValue> {
     return ConstrainedValue{7, Eigen::VectorXd::Constant(1, -1.0)};
   };
-  CHECK_FALSE(constrained_maximum(refused, Variables(0), Variables(0), Variables(0), 0.1));
+  CHECK_FALSE(constrained_maximum(refused, Variables(0), Variables(0), Variables(0), 0.1, 1e-4));
 }

@@ -37,6 +37,8 @@ class Refinement {
   }
 
  private:
+  static constexpr double kDifference = 1e-4;  // m and rad
+
   struct Freedom {
     double PlanePoint::*coordinate;
     double lower, upper;
@@ -63,8 +65,9 @@ class Refinement {
       for (Eigen::Index i = 0; i < n; ++i) at.*free[i].coordinate = x[i];
       return at;
     };
-    const auto found = numerics::constrained_maximum(
-        [&](const numerics::Variables& x) { return value(point(x), power); }, first, lower, upper, radius);
+    const auto found =
+        numerics::constrained_maximum([&](const numerics::Variables& x) { return value(point(x), power); },
+                                      first, lower, upper, radius, kDifference);
     if (!found) return std::nullopt;
     PlanePoint at = point(found->point);
     if (task_.full_turn()) at.redundancy = std::remainder(at.redundancy, kTwoPi);
