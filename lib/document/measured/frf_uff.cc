@@ -305,12 +305,12 @@ class Collector {
   }
 
   // The direction's name; `sign` is turned by a negative one.
-  std::string direction_name(const UniversalPlace& place, double& sign) {
+  std::string direction_name(const UniversalDof& dof, double& sign) {
     static constexpr std::array kNames = {"x", "x", "y", "z"};
-    if (place.direction < 0) sign = -sign;
-    if (place.direction == 0) without_direction_ = true;
-    const std::string name = kNames[std::abs(place.direction)];
-    return with_nodes_ ? name + "@" + std::to_string(place.node) : name;
+    if (dof.direction < 0) sign = -sign;
+    if (dof.direction == 0) without_direction_ = true;
+    const std::string name = kNames[std::abs(dof.direction)];
+    return with_nodes_ ? name + "@" + std::to_string(dof.node) : name;
   }
 
   void add(dynamics::FrequencyResponse& frf, const UniversalFunction& function) {
@@ -394,7 +394,7 @@ class Collector {
 };
 
 // `x@3` -> node 3, direction 1.
-UniversalPlace place_of(const std::string& name) {
+UniversalDof dof_of(const std::string& name) {
   const auto at = name.find('@');
   const std::string direction = name.substr(0, at);
   const auto node =
@@ -424,8 +424,8 @@ std::string frf_to_universal_file(const dynamics::FrequencyResponse& frf, Univer
     UniversalFunction function;
     function.id[0] = "H " + entry.response + " " + entry.reference + ": response, then force";
     function.type = kFrequencyResponse;
-    function.response = place_of(entry.response);
-    function.reference = place_of(entry.reference);
+    function.response = dof_of(entry.response);
+    function.reference = dof_of(entry.reference);
     function.abscissa = frf.frequency_hz;
     function.values = entry.h;
     function.abscissa_axis = {kFrequency, "Frequency", "Hz"};

@@ -155,6 +155,12 @@ TEST_CASE("dataset 58 in whatever dress") {
          d.ordinate = "12 1 0 0 Acceleration  m/s^2\n";
          d.denominator = "13 0 1 0 Force  N\n";
        })},
+      {"axis records that end before their columns", changed([](Dataset& d) {
+         d.abscissa = "18 0 0 0 f  Hz\n";
+         d.ordinate = "12 1 0 0 a  m/s^2\n";
+         d.denominator = "13 0 1 0 F  N\n";
+         d.z = "0\n";
+       })},
       {"names with blanks", changed([](Dataset& d) {
          d.places = "    4         0    0         0  sine 5 Hz         1   1       NONE         1   1\n";
        })},

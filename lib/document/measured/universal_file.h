@@ -24,8 +24,9 @@ struct UniversalAxis {
   std::string unit;   ///< likewise
 };
 
-/// A node and a direction: 0 none, 1 to 3 along x, y, z, 4 to 6 about them, negative against them.
-struct UniversalPlace {
+/// A nodal degree of freedom: a node and a direction, 0 none, 1 to 3 along x, y, z, 4 to 6 about them,
+/// negative against them.
+struct UniversalDof {
   std::string entity;
   int node = 0;
   int direction = 0;
@@ -43,7 +44,7 @@ struct UniversalFunction {
   long line = 0;   ///< of record 1; record r (up to 11) is on line + r - 1
   std::array<std::string, 5> id;
   int type = 0;  ///< 1 time response, 2 auto spectrum, 4 frequency response, 6 coherence, ...
-  UniversalPlace response, reference;
+  UniversalDof response, reference;
   bool is_complex = false;
   Eigen::VectorXd abscissa;  ///< [values] as written
   Eigen::VectorXcd values;   ///< [values] as written; not a number where the file says so
