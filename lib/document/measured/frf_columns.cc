@@ -59,7 +59,7 @@ std::optional<FrfUnit> unit_at_end(const TableRow& row) {
 
 class ColumnReader {
  public:
-  ColumnReader(const Source& source, const ColumnChoice& choice, std::vector<std::string>& remarks)
+  ColumnReader(const Source& source, const FrfChoice& choice, std::vector<std::string>& remarks)
       : source_(source), choice_(choice), remarks_(remarks), rows_(table_rows(source)) {}
 
   dynamics::FrequencyResponse read() {
@@ -293,7 +293,7 @@ class ColumnReader {
     // At the end of the first line, be it a header or numbers.
     const std::optional<FrfUnit> at_end = unit_at_end(rows_.front());
     if (!common) common = at_end;
-    if (choice_.needs_unit && !common) {
+    if (choice_.form == FrfForm::kCutPro && !common) {
       throw DataError(source_.name, line_place(rows_.front().line), "",
                       "expected a unit at the end of the first line of a .frf, as m/N");
     }
@@ -420,7 +420,7 @@ class ColumnReader {
   }
 
   const Source& source_;
-  const ColumnChoice& choice_;
+  const FrfChoice& choice_;
   std::vector<std::string>& remarks_;
   std::vector<TableRow> rows_;
   ColumnPlan plan_;
@@ -429,7 +429,7 @@ class ColumnReader {
 
 }  // namespace
 
-dynamics::FrequencyResponse frf_from_columns(const Source& source, const ColumnChoice& choice,
+dynamics::FrequencyResponse frf_from_columns(const Source& source, const FrfChoice& choice,
                                              std::vector<std::string>& remarks) {
   return ColumnReader(source, choice, remarks).read();
 }

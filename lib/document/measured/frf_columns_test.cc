@@ -11,12 +11,12 @@ using Complex = std::complex<double>;
 
 namespace {
 
-dynamics::FrequencyResponse read(const std::string& text, const ColumnChoice& choice = {}) {
+dynamics::FrequencyResponse read(const std::string& text, const FrfChoice& choice = {}) {
   std::vector<std::string> remarks;
   return frf_from_columns({"f", text}, choice, remarks);
 }
 
-std::string complaint(const std::string& text, const ColumnChoice& choice = {}) {
+std::string complaint(const std::string& text, const FrfChoice& choice = {}) {
   try {
     read(text, choice);
   } catch (const DataError& error) {
@@ -72,7 +72,7 @@ TEST_CASE("units and quantities") {
   CHECK(read("1 2 3\n", {.quantity = dynamics::Quantity::kMobility}).quantity ==
         dynamics::Quantity::kMobility);
   CHECK(read("1 2 3\n", {.unit = frf_unit("um/N")}).entries[0].h[0] == Complex(2e-6, 3e-6));
-  CHECK(complaint("1 2 3\n", {.needs_unit = true})
+  CHECK(complaint("1 2 3\n", {.form = FrfForm::kCutPro})
             .find("f: line 1: expected a unit at the end of the first line") == 0);
   CHECK(complaint("Hz,Re (V/V),Im (V/V)\n1,1,0\n").find("f: line 1: V/V: expected") == 0);
   CHECK(complaint("f (s),Re,Im\n1,1,0\n").find("f: line 1: s: expected a frequency") == 0);

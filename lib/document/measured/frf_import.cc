@@ -34,15 +34,8 @@ FrfForm frf_form_of(const Input& input, const FrfChoice& choice) {
 dynamics::FrequencyResponse import_frf(const Input& input, const FrfChoice& choice,
                                        std::vector<std::string>& remarks) {
   const FrfForm form = frf_form_of(input, choice);
-  if (form == FrfForm::kUniversalFile) {
-    return frf_from_universal_file(
-        input.source, {choice.quantity, choice.unit, choice.functions, choice.node, choice.averages},
-        remarks);
-  }
-  if (form != FrfForm::kJson) {
-    return frf_from_columns(
-        input.source, {choice.quantity, choice.unit, choice.averages, form == FrfForm::kCutPro}, remarks);
-  }
+  if (form == FrfForm::kUniversalFile) return frf_from_universal_file(input.source, choice, remarks);
+  if (form != FrfForm::kJson) return frf_from_columns(input.source, choice, remarks);
   dynamics::FrequencyResponse frf = frf_from_json(input.document, input.source);
   if (choice.quantity && frf.quantity != *choice.quantity) {
     throw DataError(input.source.name, "/quantity", quantity_name(frf.quantity),

@@ -5,26 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "document/measured/frf_unit.h"
+#include "document/measured/frf_choice.h"
 #include "document/text/json_text.h"
 #include "dynamics/frequency_response.h"
 
 namespace stablecut::document {
 
-enum class FrfForm { kJson, kUniversalFile, kColumns, kCutPro };
-
 /// `json`, `uff`, `csv`, `frf`; nothing for another word.
 std::optional<FrfForm> frf_form_from_name(const std::string& name);
-
-/// What the user knows better than the file.
-struct FrfChoice {
-  std::optional<FrfForm> form;  ///< empty: by content
-  std::optional<dynamics::Quantity> quantity;
-  std::optional<FrfUnit> unit;
-  std::vector<int> functions;      ///< of a universal file
-  std::optional<int> node;         ///< of a universal file
-  std::optional<double> averages;  ///< behind coherences that came without
-};
 
 /// The form that is read: the one that was chosen, else by content.
 FrfForm frf_form_of(const Input& input, const FrfChoice& choice);

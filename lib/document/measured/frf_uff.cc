@@ -111,7 +111,7 @@ std::string shown_axis(const UniversalAxis& axis) {
 
 class Collector {
  public:
-  Collector(const Source& source, const UniversalChoice& choice, std::vector<std::string>& remarks)
+  Collector(const Source& source, const FrfChoice& choice, std::vector<std::string>& remarks)
       : source_(source), choice_(choice), remarks_(remarks) {}
 
   dynamics::FrequencyResponse collect() {
@@ -385,7 +385,7 @@ class Collector {
   }
 
   const Source& source_;
-  const UniversalChoice& choice_;
+  const FrfChoice& choice_;
   std::vector<std::string>& remarks_;
   std::vector<std::string> said_;
   std::vector<int> numbers_;  // of the functions behind the entries
@@ -407,7 +407,7 @@ UniversalDof dof_of(const std::string& name) {
 
 }  // namespace
 
-dynamics::FrequencyResponse frf_from_universal_file(const Source& source, const UniversalChoice& choice,
+dynamics::FrequencyResponse frf_from_universal_file(const Source& source, const FrfChoice& choice,
                                                     std::vector<std::string>& remarks) {
   return Collector(source, choice, remarks).collect();
 }

@@ -16,18 +16,18 @@ using Complex = std::complex<double>;
 
 namespace {
 
-dynamics::FrequencyResponse read(const std::string& text, const UniversalChoice& choice = {}) {
+dynamics::FrequencyResponse read(const std::string& text, const FrfChoice& choice = {}) {
   std::vector<std::string> remarks;
   return frf_from_universal_file({"f", text}, choice, remarks);
 }
 
-std::vector<std::string> remarks_on(const std::string& text, const UniversalChoice& choice = {}) {
+std::vector<std::string> remarks_on(const std::string& text, const FrfChoice& choice = {}) {
   std::vector<std::string> remarks;
   frf_from_universal_file({"f", text}, choice, remarks);
   return remarks;
 }
 
-std::string complaint(const std::string& text, const UniversalChoice& choice = {}) {
+std::string complaint(const std::string& text, const FrfChoice& choice = {}) {
   try {
     read(text, choice);
   } catch (const DataError& error) {
