@@ -7,7 +7,7 @@
 #include "base/number_text.h"
 #include "base/range.h"
 #include "base/units.h"
-#include "document/measured/frf_column_name.h"
+#include "document/measured/frf_column_plan.h"
 #include "document/text/data_error.h"
 #include "document/text/plain_text.h"
 #include "document/text/table_text.h"
@@ -15,34 +15,8 @@
 namespace stablecut::document {
 namespace {
 
-constexpr std::size_t kNoColumn = -1;
-
-// Where the numbers of one entry stand.
-struct EntryColumns {
-  std::string response = "x", reference = "x";
-  double sign = 1;
-  std::array<std::size_t, 2> columns = {kNoColumn, kNoColumn};  // re and im, or magnitude and phase
-  std::size_t coherence = kNoColumn;
-  bool polar = false, decibel = false;
-  std::optional<bool> radians;  // unknown: told from the numbers
-  std::optional<FrfUnit> unit;
-};
-
-struct ColumnPlan {
-  std::size_t frequency = 0;
-  double to_hz = 1;
-  std::vector<std::size_t> more_frequencies;  // repeated for each entry
-  std::vector<EntryColumns> entries;
-};
-
-bool is_number(const std::string& field) { return parse_number(field).has_value(); }
-
-// What programs write for a division by zero.
-bool is_no_number(const std::string& field) {
-  const std::string text = lower(field);
-  return text.find("nan") != std::string::npos || text.find("inf") != std::string::npos ||
-         text.starts_with("#");
-}
+constexpr double kMostRadians = 1.001 * kPi;  // a phase without a unit is in degrees beyond
+constexpr double kMostCoherence = 1 + 1e-6;   // a 1 as programs round it
 
 // The unit at the end of a row: its last field, or the last few together.
 std::optional<FrfUnit> unit_at_end(const TableRow& row) {
@@ -66,7 +40,7 @@ class ColumnReader {
     if (rows_.empty()) throw DataError(source_.name, "", "", "empty input: expected columns of numbers");
     const std::size_t first = first_of_numbers();
     dynamics::FrequencyResponse frf;
-    plan_columns(first);
+    plan_ = plan_columns(source_, rows_, first, choice_);
     set_quantity(frf);
     take_numbers(frf, first);
     return frf;
@@ -110,181 +84,18 @@ class ColumnReader {
     if (first < rows_.size()) return first;
     if (rows_.size() == 1 && is_header(rows_.front()) && rows_.front().fields.size() >= 3)
       throw DataError(source_.name, line_place(rows_.front().line), "", "expected numbers below the header");
-    columns_wrong(rows_.back());
-  }
-
-  [[noreturn]] void columns_wrong(const TableRow& row) const {
-    throw DataError(
-        source_.name, line_place(row.line), std::to_string(row.fields.size()) + " columns",
-        "expected 3 columns (Hz, real, imaginary), 9 (xx, xy, yx, yy), or a header that names them");
+    refuse_column_count(source_, rows_.back());
   }
 
   [[noreturn]] void data_wrong(const TableRow& row) const {
     static constexpr std::array kWords = {"a frequency", "a real part", "an imaginary part"};
     for (std::size_t i = 0; i < row.fields.size(); ++i)
       table_number(source_, row, i, i < kWords.size() ? kWords[i] : "a number");
-    columns_wrong(row);
-  }
-
-  void plan_columns(std::size_t first) {
-    const TableRow& numbers = rows_[first];
-    std::size_t names_row = first;
-    std::vector<std::optional<ColumnName>> names;
-    // The names are in the row before the numbers that has most of them; a row of units may follow it.
-    std::ptrdiff_t most = 0;
-    for (std::size_t i = first; i > 0; --i) {
-      std::vector<std::optional<ColumnName>> found;
-      for (const std::string& field : rows_[i - 1].fields) found.push_back(column_name(field));
-      const auto known =
-          std::count_if(found.begin(), found.end(), [](const auto& n) { return n.has_value(); });
-      const bool beyond_frequency = std::any_of(
-          found.begin(), found.end(), [](const auto& n) { return n && n->part != ColumnPart::kFrequency; });
-      if (known <= most || !beyond_frequency || found.size() < 3) continue;
-      most = known;
-      names = std::move(found);
-      names_row = i - 1;
-    }
-    if (names.empty() && first > 0) refuse_unknown_names(rows_[first - 1], numbers);
-    for (std::size_t i = names_row + 1; i < first; ++i) take_unit_row(rows_[i], names);
-    if (!names.empty()) {
-      header_line_ = rows_[names_row].line;
-      name_columns(names, number_of_columns(first));
-    }
-    if (plan_.entries.empty()) columns_by_count(first);
-  }
-
-  // A header of as many names as there are columns, none of which tells a part: what the columns hold would
-  // be a guess.
-  void refuse_unknown_names(const TableRow& row, const TableRow& numbers) const {
-    if (row.fields.size() < 3 || row.fields.size() > numbers.fields.size() || !is_header(row)) return;
-    std::string list;
-    for (const std::string& field : row.fields) list += (list.empty() ? "" : ", ") + field;
-    throw DataError(
-        source_.name, line_place(row.line), list,
-        "expected names that tell what the columns hold, as f_hz, re, im or f_hz, magnitude, phase");
-  }
-
-  // Units below the names.
-  static void take_unit_row(const TableRow& row, std::vector<std::optional<ColumnName>>& names) {
-    for (std::size_t i = 0; i < std::min(row.fields.size(), names.size()); ++i) {
-      if (names[i] && names[i]->unit.empty()) names[i]->unit = row.fields[i];
-    }
-  }
-
-  EntryColumns& entry_of(const ColumnName& name) {
-    const std::string response = name.response.empty() ? "x" : name.response;
-    const std::string reference = name.reference.empty() ? "x" : name.reference;
-    for (EntryColumns& entry : plan_.entries) {
-      if (entry.response == response && entry.reference == reference) return entry;
-    }
-    EntryColumns entry;
-    entry.response = response;
-    entry.reference = reference;
-    plan_.entries.push_back(entry);
-    return plan_.entries.back();
-  }
-
-  void name_columns(const std::vector<std::optional<ColumnName>>& names, std::size_t width) {
-    bool has_frequency = false;
-    if (names.size() < width) {
-      throw DataError(source_.name, line_place(header_line_), std::to_string(names.size()) + " names",
-                      "expected one for each of " + std::to_string(width) + " columns");
-    }
-    for (std::size_t i = 0; i < width; ++i) {
-      if (!names[i]) continue;
-      const ColumnName& name = *names[i];
-      if (name.part == ColumnPart::kFrequency) {
-        if (has_frequency) {
-          plan_.more_frequencies.push_back(i);
-          continue;
-        }
-        has_frequency = true;
-        plan_.frequency = i;
-        if (const auto unit = frequency_unit(name.unit)) {
-          plan_.to_hz = *unit;
-        } else if (!name.unit.empty()) {
-          header_wrong(name.unit, "expected a frequency in Hz, kHz, rad/s or rpm");
-        }
-        continue;
-      }
-      EntryColumns& entry = entry_of(name);
-      entry.sign = name.sign;
-      if (name.part == ColumnPart::kCoherence) {
-        entry.coherence = i;
-        continue;
-      }
-      const bool second = name.part == ColumnPart::kImaginary || name.part == ColumnPart::kPhase;
-      std::size_t& column = entry.columns[second ? 1 : 0];
-      const bool polar = name.part != ColumnPart::kReal && name.part != ColumnPart::kImaginary;
-      const bool has_other = entry.columns[second ? 0 : 1] != kNoColumn;
-      if (has_other && polar != entry.polar) {
-        // Both forms of one entry: the real and imaginary parts are enough.
-        if (polar) continue;
-        entry.columns = {kNoColumn, kNoColumn};
-      }
-      if (column != kNoColumn && polar == entry.polar)
-        header_wrong(entry.response + entry.reference, "expected each part once");
-      if (column != kNoColumn && polar) continue;
-      if (column != kNoColumn) entry.columns = {kNoColumn, kNoColumn};
-      entry.polar = polar;
-      entry.columns[second ? 1 : 0] = i;
-      const std::string unit = lower(name.unit);
-      // A unit row may say dB too.
-      entry.decibel =
-          name.part == ColumnPart::kDecibel || (second ? entry.decibel : polar && unit.starts_with("db"));
-      if (name.part == ColumnPart::kPhase) {
-        if (unit.starts_with("rad")) entry.radians = true;
-        if (unit.starts_with("deg") || unit == "\xC2\xB0" || unit == "\xB0") entry.radians = false;
-        if (!unit.empty() && !entry.radians) header_wrong(name.unit, "expected a phase in deg or rad");
-      } else if (const auto told = frf_unit(name.unit)) {
-        if (entry.unit && (entry.unit->to_si != told->to_si || entry.unit->quantity != told->quantity))
-          header_wrong(name.unit, "expected one unit for both parts of " + entry.response + entry.reference);
-        entry.unit = told;
-      } else if (!unit.empty() && unit != "db" && unit != "-" && !choice_.unit) {
-        header_wrong(name.unit,
-                     "expected a displacement, velocity or acceleration over a force, as m/N (or --unit)");
-      }
-    }
-    std::erase_if(plan_.entries, [](const EntryColumns& entry) {
-      return entry.columns[0] == kNoColumn && entry.columns[1] == kNoColumn;
-    });
-    for (const EntryColumns& entry : plan_.entries) {
-      if (entry.columns[0] != kNoColumn && entry.columns[1] != kNoColumn) continue;
-      header_wrong(entry.response + entry.reference,
-                   entry.polar ? "expected a column of the magnitude and one of the phase"
-                               : "expected a column of the real and one of the imaginary part");
-    }
-    // A first column without a name is the frequency; one that is taken for something else is not.
-    if (has_frequency) return;
-    for (const EntryColumns& entry : plan_.entries) {
-      if (entry.columns[0] == 0 || entry.columns[1] == 0 || entry.coherence == 0)
-        header_wrong("first column", "expected a column of frequencies");
-    }
+    refuse_column_count(source_, row);
   }
 
   [[noreturn]] void header_wrong(const std::string& value, const std::string& expected) const {
-    throw DataError(source_.name, line_place(header_line_), value, expected);
-  }
-
-  void columns_by_count(std::size_t first) {
-    const TableRow& row = rows_[first];
-    std::size_t count = 0;
-    while (count < row.fields.size() && (is_number(row.fields[count]) || is_no_number(row.fields[count])))
-      ++count;
-    const auto entry = [](const char* response, const char* reference, std::size_t column) {
-      EntryColumns columns;
-      columns.response = response;
-      columns.reference = reference;
-      columns.columns = {column, column + 1};
-      return columns;
-    };
-    if (count == 3) {
-      plan_.entries = {entry("x", "x", 1)};
-    } else if (count == 9) {
-      plan_.entries = {entry("x", "x", 1), entry("x", "y", 3), entry("y", "x", 5), entry("y", "y", 7)};
-    } else {
-      columns_wrong(row);
-    }
+    throw DataError(source_.name, line_place(plan_.header_line), value, expected);
   }
 
   // One quantity for all entries; each entry's numbers times its own factor.
@@ -337,7 +148,7 @@ class ColumnReader {
       }
       frf.entries.push_back(std::move(entry));
     }
-    const std::size_t width = number_of_columns(first);
+    const std::size_t width = number_of_columns(rows_[first]);
     for (Eigen::Index line = 0; line < lines; ++line) {
       const TableRow& row = rows_[first + static_cast<std::size_t>(line)];
       check_width(row, width, line == 0);
@@ -360,14 +171,6 @@ class ColumnReader {
       finish_entry(frf.entries[e], plan_.entries[e], first);
   }
 
-  // A unit behind the numbers of the first line is no column, nor is an empty field.
-  std::size_t number_of_columns(std::size_t row) const {
-    const std::vector<std::string>& fields = rows_[row].fields;
-    std::size_t width = fields.size();
-    while (width > 0 && !is_number(fields[width - 1]) && !is_no_number(fields[width - 1])) --width;
-    return width;
-  }
-
   void check_width(const TableRow& row, std::size_t width, bool first) const {
     std::size_t fields = row.fields.size();
     while (fields > width && (row.fields[fields - 1].empty() || first)) --fields;
@@ -379,11 +182,11 @@ class ColumnReader {
   void take_entry(dynamics::FrequencyResponseEntry& entry, const EntryColumns& columns, const TableRow& row,
                   Eigen::Index line, bool at_zero) const {
     entry.h[line] = {
-        part_of(row, columns.columns[0], columns.polar ? "a magnitude" : "a real part", at_zero),
-        part_of(row, columns.columns[1], columns.polar ? "a phase" : "an imaginary part", at_zero)};
+        part_of(row, columns.parts[0], columns.polar ? "a magnitude" : "a real part", at_zero),
+        part_of(row, columns.parts[1], columns.polar ? "a phase" : "an imaginary part", at_zero)};
     if (columns.coherence == kNoColumn) return;
     const double coherence = part_of(row, columns.coherence, "a coherence", at_zero);
-    if (!(coherence >= 0 && coherence <= 1 + 1e-6)) {
+    if (!(coherence >= 0 && coherence <= kMostCoherence)) {
       throw DataError(source_.name, line_place(row.line), row.fields[columns.coherence],
                       "expected a coherence from 0 to 1");
     }
@@ -394,7 +197,7 @@ class ColumnReader {
   void finish_entry(dynamics::FrequencyResponseEntry& entry, const EntryColumns& columns, std::size_t first) {
     if (columns.polar) {
       const double largest = entry.h.imag().cwiseAbs().maxCoeff();
-      const bool radians = columns.radians.value_or(largest <= 1.001 * kPi);
+      const bool radians = columns.radians.value_or(largest <= kMostRadians);
       if (!columns.radians) {
         remarks_.push_back("the phase of " + entry.response + entry.reference + " has no unit: up to " +
                            number_text(largest) + ", taken as " + (radians ? "radians" : "degrees"));
@@ -414,7 +217,7 @@ class ColumnReader {
     for (Eigen::Index i = 0; i < entry.h.size(); ++i) {
       if (std::isfinite(entry.h[i].real()) && std::isfinite(entry.h[i].imag())) continue;
       const TableRow& row = rows_[first + static_cast<std::size_t>(i)];
-      throw DataError(source_.name, line_place(row.line), row.fields[columns.columns[0]],
+      throw DataError(source_.name, line_place(row.line), row.fields[columns.parts[0]],
                       "expected a number that a double can hold");
     }
   }
@@ -424,7 +227,6 @@ class ColumnReader {
   std::vector<std::string>& remarks_;
   std::vector<TableRow> rows_;
   ColumnPlan plan_;
-  long header_line_ = 0;
 };
 
 }  // namespace
