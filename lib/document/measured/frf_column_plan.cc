@@ -36,8 +36,9 @@ class HeaderReader {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& value, const std::string& expected) const {
-    throw DataError(source_.name, line_place(plan_.header_line), value, expected);
+  [[noreturn]] void fail(const std::string& value, const std::string& expected,
+                         Remedy remedy = Remedy::kNone) const {
+    throw DataError(source_.name, line_place(plan_.header_line), value, expected, remedy);
   }
 
   void take_frequency(std::size_t column, const std::string& unit) {
@@ -111,7 +112,7 @@ class HeaderReader {
         fail(written, "expected one unit for both parts of " + entry.response + entry.reference);
       entry.unit = told;
     } else if (!unit.empty() && unit != "db" && unit != "-" && !choice_.unit) {
-      fail(written, "expected a displacement, velocity or acceleration over a force, as m/N (or --unit)");
+      fail(written, "expected a displacement, velocity or acceleration over a force, as m/N", Remedy::kUnit);
     }
   }
 

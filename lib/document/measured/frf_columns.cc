@@ -33,7 +33,7 @@ std::optional<FrfUnit> unit_at_end(const TableRow& row) {
 
 class ColumnReader {
  public:
-  ColumnReader(const Source& source, const FrfChoice& choice, std::vector<std::string>& remarks)
+  ColumnReader(const Source& source, const FrfChoice& choice, std::vector<Remark>& remarks)
       : source_(source), choice_(choice), remarks_(remarks), rows_(table_rows(source)) {}
 
   dynamics::FrequencyResponse read() {
@@ -94,8 +94,9 @@ class ColumnReader {
     refuse_column_count(source_, row);
   }
 
-  [[noreturn]] void header_wrong(const std::string& value, const std::string& expected) const {
-    throw DataError(source_.name, line_place(plan_.header_line), value, expected);
+  [[noreturn]] void header_wrong(const std::string& value, const std::string& expected,
+                                 Remedy remedy = Remedy::kNone) const {
+    throw DataError(source_.name, line_place(plan_.header_line), value, expected, remedy);
   }
 
   // One quantity for all entries; each entry's numbers times its own factor.
@@ -113,14 +114,14 @@ class ColumnReader {
     const auto with_unit = std::count_if(plan_.entries.begin(), plan_.entries.end(),
                                          [](const EntryColumns& entry) { return entry.unit.has_value(); });
     if (!common && with_unit > 0 && with_unit < static_cast<std::ptrdiff_t>(plan_.entries.size()))
-      header_wrong("units", "expected them for all entries, or for none (--unit)");
+      header_wrong("units", "expected them for all entries, or for none", Remedy::kUnit);
     for (EntryColumns& entry : plan_.entries) {
       if (choice_.unit || (common && !entry.unit)) entry.unit = common;
       if (!entry.unit) continue;
       if (told && entry.unit->quantity != frf.quantity)
         header_wrong(entry.response + entry.reference, "expected the quantity of the columns before");
       if (!told && choice_.quantity && entry.unit->quantity != *choice_.quantity)
-        remarks_.push_back("the unit is none of what --quantity says: --quantity is believed");
+        remarks_.push_back({RemarkKind::kUnitOverruled, source_.name, {plan_.header_line}, "", "", {}});
       told = true;
       if (!choice_.quantity) frf.quantity = entry.unit->quantity;
     }
@@ -199,8 +200,12 @@ class ColumnReader {
       const double largest = entry.h.imag().cwiseAbs().maxCoeff();
       const bool radians = columns.radians.value_or(largest <= kMostRadians);
       if (!columns.radians) {
-        remarks_.push_back("the phase of " + entry.response + entry.reference + " has no unit: up to " +
-                           number_text(largest) + ", taken as " + (radians ? "radians" : "degrees"));
+        remarks_.push_back({radians ? RemarkKind::kPhaseTakenAsRadians : RemarkKind::kPhaseTakenAsDegrees,
+                            source_.name,
+                            {},
+                            "",
+                            entry.response + entry.reference,
+                            {largest}});
       }
       for (auto& value : entry.h) {
         if (!columns.decibel && value.real() < 0) {
@@ -224,7 +229,7 @@ class ColumnReader {
 
   const Source& source_;
   const FrfChoice& choice_;
-  std::vector<std::string>& remarks_;
+  std::vector<Remark>& remarks_;
   std::vector<TableRow> rows_;
   ColumnPlan plan_;
 };
@@ -232,7 +237,7 @@ class ColumnReader {
 }  // namespace
 
 dynamics::FrequencyResponse frf_from_columns(const Source& source, const FrfChoice& choice,
-                                             std::vector<std::string>& remarks) {
+                                             std::vector<Remark>& remarks) {
   return ColumnReader(source, choice, remarks).read();
 }
 

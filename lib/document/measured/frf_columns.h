@@ -1,10 +1,10 @@
 // Frequency responses from columns of text: CSV, TSV, CutPro's .frf.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "document/measured/frf_choice.h"
+#include "document/measured/remark.h"
 #include "document/text/json_text.h"
 #include "dynamics/frequency_response.h"
 
@@ -16,6 +16,6 @@ namespace stablecut::document {
 /// below it, or at the end of the first line (.frf). Lines before the header are passed over. Throws
 /// DataError with the line.
 dynamics::FrequencyResponse frf_from_columns(const Source& source, const FrfChoice& choice,
-                                             std::vector<std::string>& remarks);
+                                             std::vector<Remark>& remarks);
 
 }  // namespace stablecut::document

@@ -12,8 +12,15 @@ using Complex = std::complex<double>;
 namespace {
 
 dynamics::FrequencyResponse read(const std::string& text, const FrfChoice& choice = {}) {
-  std::vector<std::string> remarks;
+  std::vector<Remark> remarks;
   return frf_from_columns({"f", text}, choice, remarks);
+}
+
+Remark only_remark(const std::string& text, const FrfChoice& choice = {}) {
+  std::vector<Remark> remarks;
+  frf_from_columns({"f", text}, choice, remarks);
+  REQUIRE(remarks.size() == 1);
+  return remarks[0];
 }
 
 std::string complaint(const std::string& text, const FrfChoice& choice = {}) {
@@ -72,6 +79,10 @@ TEST_CASE("units and quantities") {
   CHECK(read("1 2 3\n", {.quantity = dynamics::Quantity::kMobility}).quantity ==
         dynamics::Quantity::kMobility);
   CHECK(read("1 2 3\n", {.unit = frf_unit("um/N")}).entries[0].h[0] == Complex(2e-6, 3e-6));
+  const Remark overruled =
+      only_remark("Hz,Re (g/N),Im (g/N)\n1,1,0\n", {.quantity = dynamics::Quantity::kMobility});
+  CHECK(overruled.kind == RemarkKind::kUnitOverruled);
+  CHECK(overruled.place.line == 1);
   CHECK(complaint("1 2 3\n", {.form = FrfForm::kCutPro})
             .find("f: line 1: expected a unit at the end of the first line") == 0);
   CHECK(complaint("Hz,Re (V/V),Im (V/V)\n1,1,0\n").find("f: line 1: V/V: expected") == 0);
@@ -85,6 +96,11 @@ TEST_CASE("magnitude and phase, coherence, several pairs") {
   // A phase without a unit, by its size.
   CHECK(std::abs(read("f,mag,phase\n1,1,3.14159265\n").entries[0].h[0] + 1.0) < 1e-8);
   CHECK(std::abs(read("f,mag,phase\n1,1,180\n").entries[0].h[0] + 1.0) < 1e-12);
+  const Remark degrees = only_remark("f,Mag(Hyx),Phase(Hyx)\n1,1,180\n2,1,-270\n");
+  CHECK(degrees.kind == RemarkKind::kPhaseTakenAsDegrees);
+  CHECK(degrees.entry == "yx");
+  CHECK(degrees.numbers == std::vector<double>{270});
+  CHECK(only_remark("f,mag,phase\n1,1,-3\n").kind == RemarkKind::kPhaseTakenAsRadians);
   const auto with_coherence = read("f,Re,Im,Coherence\n1,2,3,0.5\n2,3,4,1\n", {.averages = 5.0});
   REQUIRE(with_coherence.entries[0].coherence.size() == 2);
   CHECK(with_coherence.entries[0].coherence[0] == 0.5);

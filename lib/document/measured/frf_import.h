@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "document/measured/frf_choice.h"
+#include "document/measured/remark.h"
 #include "document/text/json_text.h"
 #include "dynamics/frequency_response.h"
 
@@ -20,7 +21,7 @@ FrfForm frf_form_of(const Input& input, const FrfChoice& choice);
 /// The frequency responses of one input, in SI. Remarks are what the user should know about how the file was
 /// read. Throws DataError; a quantity that a `frf` document contradicts is one too.
 dynamics::FrequencyResponse import_frf(const Input& input, const FrfChoice& choice,
-                                       std::vector<std::string>& remarks);
+                                       std::vector<Remark>& remarks);
 
 /// One input of several, which hold an entry each.
 struct FrfPart {
@@ -34,6 +35,6 @@ std::optional<FrfPart> frf_part_named(const std::string& directions);
 /// The inputs' entries together, each under its part's directions. Throws DataError for an input of several
 /// entries, other lines or another quantity than the first, and a pair of directions that comes twice.
 dynamics::FrequencyResponse import_frf_parts(const std::vector<FrfPart>& parts, const FrfChoice& choice,
-                                             std::vector<std::string>& remarks);
+                                             std::vector<Remark>& remarks);
 
 }  // namespace stablecut::document

@@ -55,11 +55,6 @@ UniversalUnits read_units(const Source& source, LineReader& lines) {
 
 }  // namespace
 
-std::string UniversalFunction::place(int record) const {
-  return line_place(line + record - 1) + " (function " + std::to_string(number) + ", record " +
-         std::to_string(record) + ")";
-}
-
 bool looks_like_universal_file(std::string_view text) {
   constexpr long kLinesInFront = 50;
   LineReader lines(text);

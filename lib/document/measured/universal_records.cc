@@ -46,7 +46,7 @@ class RecordReader {
 
  private:
   [[noreturn]] void fail(int record, std::string_view value, const std::string& expected) const {
-    throw DataError(source_.name, function_.place(record), std::string(trimmed(value)), expected);
+    throw DataError(source_.name, function_.place(record).text(), std::string(trimmed(value)), expected);
   }
 
   // 2(I5,I10),2(1X,10A1,I10,I4). Writers shift the columns; ten words are unambiguous.
@@ -174,7 +174,7 @@ ValueLayout read_records(const Source& source, LineReader& lines, const DatasetH
     const auto line = lines.next();
     // Records 1 to 5 are free text, which may be a -1.
     if (!line || (record > 5 && is_delimiter(*line))) {
-      throw DataError(source.name, function.place(record), line ? "-1" : "end of the file",
+      throw DataError(source.name, function.place(record).text(), line ? "-1" : "end of the file",
                       "expected record " + std::to_string(record) + " of dataset 58");
     }
     reader.read(record, *line);

@@ -41,7 +41,7 @@ void place_number(const ValueLayout& layout, UniversalFunction& function, std::s
 }
 
 std::string value_place(const LineReader& lines, const UniversalFunction& function) {
-  return line_place(lines.line()) + " (function " + std::to_string(function.number) + ", record 12)";
+  return FilePlace{lines.line(), function.number, 12}.text();
 }
 
 void read_text(const Source& source, LineReader& lines, const ValueLayout& layout,
@@ -50,7 +50,7 @@ void read_text(const Source& source, LineReader& lines, const ValueLayout& layou
   // Each number takes a character at least: a count that the file cannot hold is refused before there is
   // room made for it.
   if (wanted > lines.rest().size()) {
-    throw DataError(source.name, function.place(7), std::to_string(layout.count),
+    throw DataError(source.name, function.place(7).text(), std::to_string(layout.count),
                     "expected a number of values that the file holds");
   }
   make_room(layout, function);
