@@ -170,13 +170,12 @@ void refuse_unknown_names(const Source& source, const TableRow& row, const Table
       "expected names that tell what the columns hold, as f_hz, re, im or f_hz, magnitude, phase");
 }
 
-ColumnPlan columns_by_count(const Source& source, const TableRow& row, long header_line) {
+// Adds the entries that so many columns of numbers are.
+void entries_by_count(const Source& source, const TableRow& row, ColumnPlan& plan) {
   std::size_t count = 0;
   while (count < row.fields.size() && (is_number(row.fields[count]) || is_no_number(row.fields[count])))
     ++count;
   if (count != 3 && count != 9) refuse_column_count(source, row);
-  ColumnPlan plan;
-  plan.header_line = header_line;
   for (std::size_t column = 1; column < count; column += 2) {
     EntryColumns entry;
     if (count == 9) {  // xx, xy, yx, yy
@@ -186,7 +185,6 @@ ColumnPlan columns_by_count(const Source& source, const TableRow& row, long head
     entry.parts = {column, column + 1};
     plan.entries.push_back(entry);
   }
-  return plan;
 }
 
 }  // namespace
@@ -214,9 +212,11 @@ void refuse_column_count(const Source& source, const TableRow& row) {
 ColumnPlan plan_columns(const Source& source, const std::vector<TableRow>& rows, std::size_t first,
                         const FrfChoice& choice) {
   auto [names_row, names] = find_names(rows, first);
+  ColumnPlan plan;
   if (names.empty()) {
     if (first > 0) refuse_unknown_names(source, rows[first - 1], rows[first]);
-    return columns_by_count(source, rows[first], 0);
+    entries_by_count(source, rows[first], plan);
+    return plan;
   }
   // Units below the names.
   for (std::size_t i = names_row + 1; i < first; ++i) {
@@ -225,9 +225,10 @@ ColumnPlan plan_columns(const Source& source, const std::vector<TableRow>& rows,
       if (names[c] && names[c]->unit.empty()) names[c]->unit = units[c];
     }
   }
-  const long line = rows[names_row].line;
-  ColumnPlan plan = HeaderReader(source, line, choice).read(names, number_of_columns(rows[first]));
-  return plan.entries.empty() ? columns_by_count(source, rows[first], line) : plan;
+  plan = HeaderReader(source, rows[names_row].line, choice).read(names, number_of_columns(rows[first]));
+  // The names may tell the frequency alone.
+  if (plan.entries.empty()) entries_by_count(source, rows[first], plan);
+  return plan;
 }
 
 }  // namespace stablecut::document
