@@ -4,7 +4,6 @@
 
 #include <catch2/catch.hpp>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -12,6 +11,7 @@
 #include <stdexcept>
 
 #include "cli/exit_status.h"
+#include "cli/scratch_folder_test.h"
 #include "document/text/data_error.h"
 
 using namespace stablecut;
@@ -71,15 +71,6 @@ Outcome run_throwing(const std::function<void()>& work) {
   return run(tool);
 }
 
-struct Folder {
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "stablecut-tool-XXXXXX").string();
-    path = mkdtemp(name.data());
-  }
-  ~Folder() { fs::remove_all(path); }
-  fs::path path;
-};
-
 }  // namespace
 
 TEST_CASE("each failure has its exit status and one line") {
@@ -112,7 +103,7 @@ TEST_CASE("an error's remedy is named by the tool's own option, where it has one
 }
 
 TEST_CASE("an output that cannot be created is status 73 and names the path") {
-  const Folder folder;
+  const ScratchFolder folder;
   const auto refused = [&](const fs::path& path) {
     INFO(path);
     const Outcome outcome = run_with({"-o", path.string()});
@@ -145,7 +136,7 @@ TEST_CASE("an output that cannot be created is status 73 and names the path") {
 }
 
 TEST_CASE("two spellings of one output are refused") {
-  const Folder folder;
+  const ScratchFolder folder;
   const std::string file = (folder.path / "a").string(), same = (folder.path / "." / "a").string();
   TestTool* tool = nullptr;
   TestTool twice([&] {

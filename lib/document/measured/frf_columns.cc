@@ -68,12 +68,12 @@ class ColumnReader {
     std::size_t first = 0;
     while (first < rows_.size() && !is_numbers(first)) ++first;
     for (std::size_t i = 0; i < first; ++i) {
-      // A line of data with something wrong in it is none to be passed over.
+      // A row of data with something wrong in it is refused, not passed over as a header.
       const TableRow& row = rows_[i];
       const bool begins = !row.fields.empty() && is_number(row.fields[0]) && row.fields.size() >= 3;
       if (begins && (first == rows_.size() || row.fields.size() == rows_[first].fields.size()))
         data_wrong(row);
-      // Three numbers and a text: of a .frf, but its unit.
+      // Three numbers and a text: a .frf whose unit is not known.
       if (begins && is_number(row.fields[1]) && is_number(row.fields[2])) {
         std::string text;
         for (std::size_t f = 3; f < row.fields.size(); ++f) text += (f == 3 ? "" : " ") + row.fields[f];

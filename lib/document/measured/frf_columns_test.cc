@@ -142,6 +142,14 @@ TEST_CASE("a bad line is named") {
   CHECK(complaint("f,Re,Im,Coh\n1,2,3,1.5\n") == "f: line 2: 1.5: expected a coherence from 0 to 1");
 }
 
+TEST_CASE("names that tell the frequency alone") {
+  // The other columns count as without names; a coherence by itself is no entry.
+  const auto frf = read("f_khz,a,coherence\n0.001,2,3\n");
+  CHECK(frf.frequency_hz[0] == 1);
+  CHECK(frf.entries.at(0).h[0] == Complex(2, 3));
+  CHECK(frf.entries[0].coherence.size() == 0);
+}
+
 TEST_CASE("what would be a guess is refused") {
   // Row names without a name, and decimal commas between commas.
   CHECK(complaint("Frequency Real Imag\n1 5 2 3\n2 6 2 3\n") ==

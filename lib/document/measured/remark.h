@@ -44,7 +44,7 @@ enum class RemarkKind {
   kFrequencyUnitUnknown,     ///< the abscissa is taken as Hz
   kPhaseTakenAsRadians,      ///< a phase without a unit, of `entry` [largest]
   kPhaseTakenAsDegrees,      ///< likewise [largest]
-  kCoherenceTakenAsPercent,  ///< [largest]
+  kCoherenceTakenAsPercent,  ///< a coherence far above 1 [largest]
 
   // Nodes and directions.
   kSeveralNodes,      ///< directions are named with their node [responses' nodes, forces' nodes, first node]
@@ -62,11 +62,12 @@ struct Remark {
   std::vector<double> numbers;
 };
 
-/// A plain sentence behind file and place. Names no options: `remedy` is what the user could change.
+/// File, place and a plain sentence. It names no options: a tool adds its own for the remedy, if it has one.
 std::string remark_text(const Remark& remark);
+/// What the user could change.
 Remedy remedy(RemarkKind kind);
 
-/// The same sentence whatever the function: what need be said once only.
+/// True when both say the same, be it of two functions: once is enough.
 bool same_but_for_place(const Remark& a, const Remark& b);
 
 /// A function that is left out, as the error of a file that has no other.

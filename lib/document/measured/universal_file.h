@@ -17,11 +17,11 @@ namespace stablecut::document {
 /// Records before the values.
 inline constexpr int kUniversalHeaderRecords = 11;
 
-/// Numbers that dataset 58 has for what is read here.
+/// The numbers by which dataset 58 tells function types and data types, of those that matter here.
 namespace universal {
 // Function types, record 6.
 inline constexpr int kGeneral = 0, kFrequencyResponse = 4, kCoherence = 6;
-// Data types, records 8 to 10; up to the first they say nothing.
+// Data types, records 8 to 10. 0 (unknown) and 1 (general) do not say what an axis holds.
 inline constexpr int kLastUnspecific = 1, kDisplacement = 8, kReactionForce = 9, kVelocity = 11,
                      kAcceleration = 12, kForce = 13, kTime = 17, kFrequency = 18;
 }  // namespace universal
@@ -43,7 +43,7 @@ struct UniversalDof {
   bool is_translation() const { return direction >= -3 && direction <= 3; }
 };
 
-/// Dataset 164: numbers in the file over these factors are in SI.
+/// Dataset 164: a number in the file divided by its factor is in SI.
 struct UniversalUnits {
   double length_factor = 1;
   double force_factor = 1;
