@@ -55,6 +55,7 @@ TEST_CASE("three columns in whatever dress") {
            "Analyser 3000\nDate: 2026-11-23, 12:00\nFrequency (Hz),Imag,Real\n1.5,3,2\n2.5,5,4\n",
            "Real,Imag,Frequency\n2,3,1.5\n4,5,2.5\n",
            "1.5 2 3 m/N\n2.5 4 5\n",
+           "1.5 2 3 m / N\n2.5 4 5\n",
            "1.5\t2000\t3000\t[mm/N]\n2.5\t4000\t5000\n",
            "Frequency Real Imaginary m/N\n1.5 2 3\n2.5 4 5\n",
            "\"Frequency\",\"Real\",\"Imag\"\n\"1.5\",\"2\",\"3\"\n\"2.5\",\"4\",\"5\"\n",
@@ -101,6 +102,8 @@ TEST_CASE("magnitude and phase, coherence, several pairs") {
   CHECK(degrees.entry == "yx");
   CHECK(degrees.numbers == std::vector<double>{270});
   CHECK(only_remark("f,mag,phase\n1,1,-3\n").kind == RemarkKind::kPhaseTakenAsRadians);
+  CHECK(only_remark("f,mag,phase\n1,1,-3.142\n").kind == RemarkKind::kPhaseTakenAsRadians);
+  CHECK(only_remark("f,mag,phase\n1,1,3.2\n").kind == RemarkKind::kPhaseTakenAsDegrees);
   const auto with_coherence = read("f,Re,Im,Coherence\n1,2,3,0.5\n2,3,4,1\n", {.averages = 5.0});
   REQUIRE(with_coherence.entries[0].coherence.size() == 2);
   CHECK(with_coherence.entries[0].coherence[0] == 0.5);

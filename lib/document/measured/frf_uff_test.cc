@@ -351,6 +351,28 @@ TEST_CASE("what a function means") {
   CHECK(only_remark(of_turns).place.record == 8);
 }
 
+TEST_CASE("lines and units that differ by their digits only are the same") {
+  const auto second = [](const char* first, const char* step) {
+    return changed([&](Dataset& d) {
+      d.places = "    4         0    0         0 NONE               1   1 NONE               1   2\n";
+      d.layout = std::string("         5         3         1  ") + first + "  " + step + "  0.00000E+00\n";
+    });
+  };
+  CHECK(read(Dataset().text() + second("1.00001E+00", "5.00000E-01")).entries.size() == 2);
+  CHECK(complaint(Dataset().text() + second("1.00010E+00", "5.00000E-01"))
+            .find("expected the 3 lines of the functions before") != std::string::npos);
+  // mm/s^2 over N beside a dataset 164 of so many units a metre.
+  const auto beside = [](const char* per_metre) {
+    return std::string("    -1\n   164\n         5MM                             0\n  ") + per_metre +
+           "  1.00000000000000000D+00  1.00000000000000000D+00\n  2.73160000000000025D+02\n    -1\n" +
+           changed([](Dataset& d) {
+             d.ordinate = "        12    1    0    0 Acceleration         mm/s^2              \n";
+           });
+  };
+  CHECK(remarks_on(beside("1.00010000000000000D+03")).empty());
+  CHECK(only_remark(beside("1.01000000000000000D+03")).kind == RemarkKind::kUnitContradicted);
+}
+
 TEST_CASE("what is no frequency response is refused with function, record and line") {
   CHECK(complaint(changed([](Dataset& d) { d.places[4] = '1'; })) ==
         "f: line 8 (function 1, record 6): function type 1, a time response: expected type 4, a frequency "
