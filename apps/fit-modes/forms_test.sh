@@ -59,7 +59,7 @@ check_jq "one sign turns the entry" "$scratch/one-sign.json" '.h == $turned[0].h
 fit-modes --convert --entry yx=plain.uff >"$got" 2>"$err"
 check "the option names the directions" jq -e '.h[0] | .response == "y" and .reference == "x"' "$got" >/dev/null
 check "and says that the file says otherwise" grep -q '^fit-modes: warning: plain.uff: says xx: taken for yx' "$err"
-refused 65 '^fit-modes: four.uff: 4 entries: expected one in a file of --entry' fit-modes --entry xx=four.uff
+refused 65 '^fit-modes: four.uff: 4 entries: expected one in each of several files \(--functions\)' fit-modes --entry xx=four.uff
 refused 65 '^fit-modes: entry-xy.csv: xx: expected each pair of directions once' fit-modes --entry xx=entry-xx.csv --entry xx=entry-xy.csv
 head -n 11 entry-xy.csv >"$scratch/short.csv"
 refused 65 'short.csv: 11 lines from 100 to 150 Hz: expected the lines of the first file, 12' fit-modes --entry xx=entry-xx.csv --entry "xy=$scratch/short.csv"
@@ -68,6 +68,13 @@ refused 64 '^fit-modes: --entry: xx: expected DIRECTIONS=FILE' fit-modes --entry
 refused 64 '^fit-modes: --entry: x=a.csv: expected DIRECTIONS=FILE' fit-modes --entry x=a.csv
 refused 64 '^fit-modes: plain.uff: expected no other input with --entry' fit-modes --entry xx=entry-xx.csv plain.uff
 refused 66 '^fit-modes: nowhere.csv: cannot be read' fit-modes --entry xx=nowhere.csv
+
+# What the user could change is named by this tool's option.
+fit-modes --convert nodes.uff 2>"$err" >"$got"
+check "several nodes" grep -q '^fit-modes: warning: nodes.uff: responses at 1 and forces at 2 nodes: a direction is named with its node, as x@1 (--node)$' "$err"
+refused 65 '^fit-modes: twice.uff: .*expected each pair of directions once \(--functions\)$' fit-modes twice.uff
+refused 65 '^fit-modes: quantity-unknown.uff: .*does not say what the response is \(--quantity or --unit\)$' fit-modes quantity-unknown.uff
+refused 65 '^fit-modes: not-a-unit.csv: .*, as m/N \(--unit\)$' fit-modes not-a-unit.csv
 
 # Options that do not fit.
 refused 64 '^fit-modes: --unit: apples/N: expected a unit' fit-modes --unit apples/N three.csv

@@ -12,7 +12,7 @@
 #include "cli/tool.h"
 #include "document/kinds/frf_json.h"
 #include "document/kinds/modal_table_json.h"
-#include "document/measured/frf_uff.h"
+#include "document/measured/frf_uff_writer.h"
 #include "document/text/data_error.h"
 #include "dynamics/synthesis.h"
 #include "measurement.h"
@@ -93,6 +93,28 @@ class FitModes : public cli::Tool {
     for (const CLI::Option* option : options) {
       if (option->count() > 0) throw cli::WrongUsage(option->get_name() + ": expected " + expected);
     }
+  }
+
+  std::string option_for(Remedy remedy) const override {
+    switch (remedy) {
+      case Remedy::kNone:
+        return "";
+      case Remedy::kBand:
+        return "--band";
+      case Remedy::kQuantity:
+        return "--quantity";
+      case Remedy::kUnit:
+        return "--unit";
+      case Remedy::kQuantityOrUnit:
+        return "--quantity or --unit";
+      case Remedy::kFunctions:
+        return "--functions";
+      case Remedy::kNode:
+        return "--node";
+      case Remedy::kModes:
+        return "--modes";
+    }
+    return "";
   }
 
   void run() override {
@@ -237,7 +259,8 @@ class FitModes : public cli::Tool {
     Measurement measured = measurement_.read(
         main_input(),
         [this](const std::string& path, cli::InputForm form) { return read_input(path, form); });
-    for (const std::string& remark : measured.remarks) warn(remark);
+    for (const document::Remark& remark : measured.remarks)
+      warn(document::remark_text(remark) + advice(document::remedy(remark.kind)));
     input_name_ = measured.name;
     zeros_are_dead_ = !measured.is_document;
     return std::move(measured.frf);

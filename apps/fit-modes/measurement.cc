@@ -83,7 +83,6 @@ Measurement MeasurementOptions::read(const std::string& main_input, const Reader
   };
   if (parts_.empty()) {
     result.frf = document::import_frf(checked(main_input), choice, result.remarks);
-    for (std::string& remark : result.remarks) remark = result.name + ": " + remark;
   } else {
     if (main_input != "-") throw cli::WrongUsage(main_input + ": expected no other input with --entry");
     std::vector<document::FrfPart> parts = parts_;

@@ -12,10 +12,10 @@
 namespace stablecut {
 
 struct Measurement {
-  dynamics::FrequencyResponse frf;   ///< in the band, in the quantity that was measured
-  std::string name;                  ///< of the input, or of the first of several
-  bool is_document = false;          ///< a frf document, in which zeros mean uncoupled
-  std::vector<std::string> remarks;  ///< on how the files were read, each with its file's name
+  dynamics::FrequencyResponse frf;        ///< in the band, in the quantity that was measured
+  std::string name;                       ///< of the input, or of the first of several
+  bool is_document = false;               ///< a frf document, in which zeros mean uncoupled
+  std::vector<document::Remark> remarks;  ///< on how the files were read
 };
 
 class MeasurementOptions {

@@ -15,6 +15,7 @@
 #include "document/kinds/measurement_plan_json.h"
 #include "document/kinds/pose_list_json.h"
 #include "document/kinds/robot_json.h"
+#include "document/measured/load_samples_csv.h"
 
 namespace stablecut {
 namespace {

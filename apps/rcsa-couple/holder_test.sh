@@ -72,6 +72,8 @@ with of-modes.json '.holder.end.modal_table.file = "two.json"' 65 'two.json: /do
 with inline.json '.holder.end.receptances.h[0].re = [1]' 65 'bad.json: /holder/end/receptances/h/0/re: a list of 1: expected 396 numbers'
 with $taps '.holder.end.artefact.segments[0].material = "wood"' 65 'bad.json: /holder/end/artefact/segments/0/material: "wood": expected one of'
 with difference.json '.holder.receptances[1].reference_position_mm = -1' 65 'bad.json: /holder/receptances/1/reference_position_mm: -1: expected'
+printf 'f,Re (V/V),Im (V/V)\n100,1,2\n' >volts.csv
+with difference.json '.holder.receptances[0].file = "volts.csv"' 65 'volts.csv: line 1: V/V: .*, as m/N \("unit" beside its "file"\)$'
 check "nothing was written" test ! -e result.json
 
 # Measured points that this project did not write.

@@ -68,6 +68,12 @@ for form in tap.u tap.c; do
   check_jq "$form: the same joint" form-$form.json '[paths(numbers) as $p | [getpath($p), ($p | . as $q | $other[0] | getpath($q))]
     | select((.[0] - .[1] | fabs) > 1e-5 * (.[1] | fabs))] | length == 0' --slurpfile other form-plain.json
 done
+# What is said of a file names options that this tool has.
+sed 's/Displacement         m   /Displacement         V   /' tap.uff >volts.uff
+rcsa-couple --identify volts.uff "$data/carbide-in-collet.json" -o volts.json 2>log
+check "a unit that is not known" grep -Eq '^rcsa-couple: warning: volts.uff: line [0-9]+ \(function 1, record 9\): V over N: .* is believed \(--unit\)$' log
+rcsa-couple --identify "$data/taps/nodes.uff" "$data/carbide-in-collet.json" >nodes.json 2>log
+check "no option for what it cannot choose" grep -Eq 'a direction is named with its node, as x@1$' log
 refused 64 '^rcsa-couple: --unit: a frf document says its units itself' rcsa-couple --identify plain.json --unit um/N "$data/carbide-in-collet.json"
 refused 64 '^rcsa-couple: --unit: expected --identify' rcsa-couple "$assembly" --unit um/N
 

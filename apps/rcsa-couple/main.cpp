@@ -111,16 +111,32 @@ class RcsaCouple : public cli::Tool {
     bounds_given_ = true;
   }
 
+  // What the user could change for the file that is being read: the measured tip, or one that the assembly
+  // names with a quantity and a unit of its own.
+  std::string option_for(Remedy remedy) const override {
+    const bool unit = remedy == Remedy::kUnit || remedy == Remedy::kQuantityOrUnit;
+    if (!reading_assembly_) return unit ? "--unit" : "";
+    if (unit) return "\"unit\" beside its \"file\"";
+    return remedy == Remedy::kQuantity ? "\"quantity\" beside its \"file\"" : "";
+  }
+
+  void warn_of(const std::vector<document::Remark>& remarks) const {
+    for (const document::Remark& remark : remarks)
+      warn(document::remark_text(remark) + advice(document::remedy(remark.kind)));
+  }
+
   // ---- coupling ----
 
   document::AssemblyDocument read_assembly(const document::Input& input,
                                            const Eigen::VectorXd& frequency_hz) {
     assembly_name_ = input.source.name;
+    reading_assembly_ = true;
     const auto folder = std::filesystem::path(main_input() == "-" ? "" : main_input()).parent_path();
     document::AssemblyDocument document = document::assembly_from_json(
         input.document, input.source, frequency_hz, [&](const std::string& path) {
           return read_input((folder / path).string(), cli::InputForm::kByContent);
         });
+    warn_of(document.remarks);
     for (const std::string& text : document.warnings) warn(text);
     return document;
   }
@@ -235,13 +251,13 @@ class RcsaCouple : public cli::Tool {
 
   void identify() {
     const document::Input measured_input = read_input(identify_path_, cli::InputForm::kByContent);
-    std::vector<std::string> remarks;
+    std::vector<document::Remark> remarks;
     document::FrfChoice choice;
     choice.unit = unit_;
     if (unit_ && document::frf_form_of(measured_input, choice) == document::FrfForm::kJson)
       throw cli::WrongUsage("--unit: a frf document says its units itself");
     const dynamics::FrequencyResponse tap = document::import_frf(measured_input, choice, remarks);
-    for (const std::string& remark : remarks) warn(measured_input.source.name + ": " + remark);
+    warn_of(remarks);
     const document::Input input = read_main_input(cli::InputForm::kJson);
     const Eigen::VectorXd wanted = document::assembly_frequencies(input.document, input.source);
     const dynamics::FrequencyResponse measured =
@@ -336,7 +352,7 @@ class RcsaCouple : public cli::Tool {
     }
   }
 
-  bool slopes_ = false, bounds_given_ = false;
+  bool slopes_ = false, bounds_given_ = false, reading_assembly_ = false;
   std::vector<double> positions_m_;
   std::optional<document::FrfUnit> unit_;
   std::string assembly_name_, joint_path_, identify_path_, fitted_path_, rigid_path_, objective_;

@@ -10,12 +10,13 @@ namespace stablecut {
 /// and a room below it knows of none.
 enum class Remedy {
   kNone,
-  kBand,       ///< another band of the measurement
-  kQuantity,   ///< say what was measured
-  kUnit,       ///< say in which unit
-  kFunctions,  ///< take some of the file's functions
-  kNode,       ///< take what was measured at one node
-  kModes       ///< take some of the modes
+  kBand,            ///< another band of the measurement
+  kQuantity,        ///< say what was measured
+  kUnit,            ///< say in which unit
+  kQuantityOrUnit,  ///< either of the two
+  kFunctions,       ///< take some of the file's functions
+  kNode,            ///< take what was measured at one node
+  kModes            ///< take some of the modes
 };
 
 /// An argument outside what the function can take; the text names quantity, value and what was expected.

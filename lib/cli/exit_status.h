@@ -36,7 +36,7 @@ class WrongUsage : public Failure {
   explicit WrongUsage(const std::string& text) : Failure(ExitStatus::kUsage, text) {}
 };
 
-/// Throws WrongUsage with the text where something holds.
+/// Throws WrongUsage with the text if the options are wrong.
 inline void refuse_if(bool wrong, const std::string& text) {
   if (wrong) throw WrongUsage(text);
 }

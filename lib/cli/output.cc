@@ -62,9 +62,14 @@ void write_all(int file, const std::string& text, const std::string& name) {
 // Follows symbolic links, also one to a file that is not there yet, so that a rename replaces the file and
 // not the link.
 std::string resolved(const std::string& path) {
+  constexpr int kMostLinks = 40;  // as the Linux kernel follows
   std::filesystem::path target = path;
   std::error_code error;
-  for (int links = 0; links < 40 && std::filesystem::is_symlink(target, error); ++links) {
+  for (int links = 0; std::filesystem::is_symlink(target, error); ++links) {
+    if (links == kMostLinks) {
+      errno = ELOOP;
+      fail(ExitStatus::kCannotCreate, path, "cannot be created");
+    }
     const std::filesystem::path next = std::filesystem::read_symlink(target, error);
     target = next.is_absolute() ? next : target.parent_path() / next;
   }

@@ -1,26 +1,17 @@
 #include "cli/output.h"
 
 #include <catch2/catch.hpp>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "cli/exit_status.h"
+#include "cli/scratch_folder_test.h"
 
 using namespace stablecut::cli;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct Folder {
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "stablecut-output-XXXXXX").string();
-    path = mkdtemp(name.data());
-  }
-  ~Folder() { fs::remove_all(path); }
-  fs::path path;
-};
 
 std::string content(const fs::path& path) {
   std::ostringstream text;
@@ -31,7 +22,7 @@ std::string content(const fs::path& path) {
 }  // namespace
 
 TEST_CASE("files appear whole, and a link stays a link") {
-  const Folder folder;
+  const ScratchFolder folder;
   std::ofstream(folder.path / "old") << "before";
   fs::create_symlink("old", folder.path / "link");
   OutputSet outputs;
@@ -44,7 +35,7 @@ TEST_CASE("files appear whole, and a link stays a link") {
 }
 
 TEST_CASE("when one output fails, no file has changed and nothing is left over") {
-  const Folder folder;
+  const ScratchFolder folder;
   std::ofstream(folder.path / "old") << "before";
   for (const auto& [bad, status] : {std::pair{folder.path / "none" / "x", ExitStatus::kCannotCreate},
                                     std::pair{fs::path("/dev/full"), ExitStatus::kIo},

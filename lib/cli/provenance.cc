@@ -25,7 +25,7 @@ std::string sha256(const std::string& bytes) {
 
 namespace {
 
-// Whatever else calls itself so is not carried on.
+// True for what provenance() writes. Anything else under that name is not carried into an output.
 bool is_provenance(const document::Json& value) {
   const auto has = [](const document::Json& object, const char* name,
                       bool (document::Json::*is)()

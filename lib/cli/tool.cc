@@ -5,6 +5,7 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <system_error>
 #include <thread>
 
 #include "base/error.h"
@@ -26,6 +27,14 @@ void say(const std::string& name, const std::string& text) {
 bool looks_like_json(const std::string& text) {
   const auto first = text.find_first_not_of(" \t\r\n");
   return first != std::string::npos && (text[first] == '{' || text[first] == '[');
+}
+
+// The file that a path leads to, so that two spellings of one file are known as one. A path that cannot be
+// followed (no permission, a name too long) stays as it is: writing to it will fail, and say why.
+std::string file_of(const std::string& path) {
+  std::error_code error;
+  const auto whole = std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
+  return error ? path : whole.string();
 }
 
 template <typename T, typename Parse>
@@ -166,8 +175,7 @@ void Tool::write_document(const std::string& path, document::Json document) {
 }
 
 void Tool::write_text(const std::string& path, std::string text) {
-  const std::string whole =
-      path == "-" ? path : std::filesystem::weakly_canonical(std::filesystem::absolute(path)).string();
+  const std::string whole = path == "-" ? path : file_of(path);
   if (std::find(output_paths_.begin(), output_paths_.end(), whole) != output_paths_.end()) {
     throw WrongUsage(path + ": expected another output for each document");
   }

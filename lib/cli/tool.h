@@ -18,7 +18,7 @@
 
 namespace stablecut::cli {
 
-/// What an input is read as; by content one that begins with { or [ is JSON.
+/// How an input is read. By content: a text that begins with { or [ is JSON.
 enum class InputForm { kByContent, kJson, kText };
 
 /// One executable. A tool declares its options in setup(), which opens nothing, and works in run(), which

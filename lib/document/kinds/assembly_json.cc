@@ -116,7 +116,7 @@ Found document_at(const Node& node, const DocumentLoader& load) {
 
 // One item of `receptances`: a document, or a file of a measurement with places for its entries.
 dynamics::FrequencyResponse responses_of(const Node& node, const DocumentLoader& load,
-                                         std::vector<std::string>& warnings) {
+                                         std::vector<Remark>& remarks) {
   const Found found = document_at(node, load);
   dynamics::FrequencyResponse frf;
   if (found.input.document.is_null()) {
@@ -127,9 +127,7 @@ dynamics::FrequencyResponse responses_of(const Node& node, const DocumentLoader&
       choice.unit = frf_unit(unit->text());
       if (!choice.unit) unit->fail("expected a unit of a response over a force, as um/N");
     }
-    std::vector<std::string> remarks;
     frf = import_frf(found.input, choice, remarks);
-    for (const std::string& remark : remarks) warnings.push_back(found.input.source.name + ": " + remark);
   } else {
     frf = frf_from_json(found.input.document, found.input.source, found.pointer);
   }
@@ -145,12 +143,12 @@ dynamics::FrequencyResponse responses_of(const Node& node, const DocumentLoader&
 }
 
 dynamics::FrequencyResponse receptances_from(const Node& node, const DocumentLoader& load,
-                                             std::vector<std::string>& warnings) {
-  if (!node.json().is_array()) return responses_of(node, load, warnings);
+                                             std::vector<Remark>& remarks) {
+  if (!node.json().is_array()) return responses_of(node, load, remarks);
   const auto items = node.items(1);
-  dynamics::FrequencyResponse all = responses_of(items[0], load, warnings);
+  dynamics::FrequencyResponse all = responses_of(items[0], load, remarks);
   for (std::size_t i = 1; i < items.size(); ++i) {
-    dynamics::FrequencyResponse more = responses_of(items[i], load, warnings);
+    dynamics::FrequencyResponse more = responses_of(items[i], load, remarks);
     if (more.quantity != all.quantity) items[i].fail("expected the quantity of the first of the list");
     if (!dynamics::same_values(more.frequency_hz, all.frequency_hz))
       items[i].fail("expected the lines of the first of the list");
@@ -289,7 +287,7 @@ class AssemblyReader {
   }
 
   receptance::MeasuredHolder of_taps(const Node& node, const Node& content) {
-    receptance::HolderMeasurement measurement{receptances_from(content, load_, document_.warnings), 0, {}};
+    receptance::HolderMeasurement measurement{receptances_from(content, load_, document_.remarks), 0, {}};
     if (const auto mass = node.find("sensor_mass_g"))
       measurement.sensor_mass_kg = 1e-3 * mass->number(kNotNegative);
     if (const auto artefact = node.find("artefact")) {

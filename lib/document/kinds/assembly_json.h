@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "document/measured/remark.h"
 #include "document/text/json_text.h"
 #include "receptance/assembly.h"
 #include "receptance/measured_holder.h"
@@ -17,6 +18,7 @@ struct AssemblyDocument {
   receptance::Assembly assembly;
   /// Of directions whose holder was measured.
   std::array<std::optional<receptance::HolderQuality>, 2> quality;
+  std::vector<Remark> remarks;  ///< on how the files that it names were read
   std::vector<std::string> warnings;
 };
 

@@ -16,6 +16,7 @@ Json frf_to_json(const dynamics::FrequencyResponse& frf);
 
 /// `receptance`, `mobility`, `accelerance`.
 const char* quantity_name(dynamics::Quantity quantity);
+/// Of one of these words.
 dynamics::Quantity quantity_from_name(const std::string& name);
 
 /// Takes the sign off a direction's name: -1 for "-x", else 1.

@@ -241,7 +241,7 @@ void merge_parts(LobesDocument& whole, bool with_grid, const Json& whole_of,
     // The whole document's place where what should be there is not.
     const auto member = [&](const char* name) { return root.has(name) ? root.at(name) : root; };
     if ((root.has("samples") ? root.at("samples").json() : Json(0)) != whole.samples)
-      member("samples").fail("expected --samples of this run");
+      member("samples").fail("expected the number of samples of this run");
     if (root.has("spectral_radius") != with_grid)
       member("spectral_radius").fail("expected a grid as in this run");
 

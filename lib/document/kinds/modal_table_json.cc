@@ -51,7 +51,7 @@ std::vector<std::string> parameter_pointers(const dynamics::ModalModel& model) {
   return pointers;
 }
 
-// The signs of turned dofs, for each parameter of a mode.
+// For each parameter of a mode: -1 where it belongs to a dof that the document names with a minus, else 1.
 Eigen::VectorXd parameter_signs(const std::vector<double>& of_dofs) {
   const Eigen::Index dofs = of_dofs.size();
   Eigen::VectorXd signs = Eigen::VectorXd::Ones(2 + 4 * dofs);
@@ -59,7 +59,7 @@ Eigen::VectorXd parameter_signs(const std::vector<double>& of_dofs) {
   return signs;
 }
 
-// What is not listed is taken as exact.
+// Parameters that the document does not list are taken as exact.
 Eigen::MatrixXd covariance_from(const Node& node, const dynamics::ModalModel& model,
                                 const std::vector<double>& signs) {
   const std::vector<std::string> known = parameter_pointers(model);

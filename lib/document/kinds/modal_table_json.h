@@ -11,8 +11,8 @@ namespace stablecut::document {
 dynamics::ModalModel modal_table_from_json(const Json& document, const Source& source,
                                            const std::string& pointer = "");
 
-/// The document without provenance, modes as given: in the contract's normalisation when they are. Of `fit`
-/// the covariance, if known.
+/// The document without provenance. Modes are written as they are: a tool brings them to the contract's
+/// normalisation first. Of `fit` only the covariance is written, if it is known.
 Json modal_table_to_json(const dynamics::ModalModel& model);
 
 }  // namespace stablecut::document

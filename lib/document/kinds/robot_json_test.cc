@@ -7,9 +7,9 @@
 
 #include "base/units.h"
 #include "document/kinds/joints_json.h"
-#include "document/kinds/load_samples_json.h"
 #include "document/text/data_error.h"
 #include "robot/inverse.h"
+#include "robot/kinematics.h"
 
 using namespace stablecut;
 using namespace stablecut::document;
@@ -73,36 +73,4 @@ TEST_CASE("a robot document's frames are rotations to rounding") {
   CHECK((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-15);
   document["tool"]["rotation"][0][0] = 0.9;
   CHECK_THROWS_AS(robot_from_json(document, source), DataError);
-}
-
-TEST_CASE("spreadsheet headers: names, units and order are the user's") {
-  const Source robot_source = file("kr360.json");
-  const robot::Robot robot = robot_from_json(parse_json(robot_source), robot_source);
-  const Source csv{"t.csv",
-                   "\xEF\xBB\xBF\"q6\"\tJ5\tA4 [rad]\taxis 3\ttheta2\tA1 (deg)\tForce X\tf_y_kn\tFz/N\tMx [N "
-                   "m]\tMy\tMz\trx\try\trot_z_mrad\t"
-                   "Delta x (\xc2\xb5m)\tuy\tdisplacement_z_m\tmeasuring point x [mm]\tmeasuring point y "
-                   "[mm]\tmeasuring point z [mm]\tstd_um\tstd_rad\tcomment\r\n"
-                   "6\t5\t0,5\t3\t2\t1\t10\t0,02\t-30\t4\t0\t0\t0\t0\t5\t100\t0,2\t0,0003\t150\t0\t0\t8\t1e-"
-                   "5\tfirst\r\n\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\r\n"};
-  const auto document = load_samples_from_csv(csv, robot, {true, true, true});
-  REQUIRE(document.samples.size() == 1);
-  const robot::LoadSample& sample = document.samples.front();
-  const auto deg = [](double d) { return radians_from_degrees(d); };
-  CHECK((sample.angles - (robot::JointAngles() << deg(1), deg(2), deg(3), 0.5, deg(5), deg(6)).finished())
-            .norm() < 1e-15);
-  CHECK((sample.force_n - Eigen::Vector3d(10, 20, -30)).norm() < 1e-12);
-  CHECK(sample.moment_n_m == Eigen::Vector3d(4, 0, 0));
-  CHECK((sample.deflection_m - Eigen::Vector3d(1e-4, 2e-4, 3e-4)).norm() < 1e-18);
-  REQUIRE(sample.rotation_rad);
-  CHECK(*sample.rotation_rad == Eigen::Vector3d(0, 0, 5e-3));
-  CHECK((sample.measuring_point - Eigen::Vector3d(0.15, 0, 0)).norm() < 1e-15);
-  CHECK(sample.force_point == robot.tool.translation());
-  CHECK(sample.deflection_std_m->x() == Approx(8e-6));
-  CHECK(sample.rotation_std_rad->x() == Approx(1e-5));
-  CHECK(document.places.front() == "line 2");
-
-  // A rotation or a point with a component missing is not one with a 0.
-  const Source partial{"t.csv", "A1,A2,A3,A4,A5,A6,Fx,Fy,Fz,dx,dy,dz,rz\n1,2,3,4,5,6,7,8,9,1,2,3,4\n"};
-  CHECK_THROWS_WITH(load_samples_from_csv(partial, robot, {true, true, true}), Catch::Contains("column rx"));
 }

@@ -17,6 +17,19 @@ bool is_exponent_letter(char c) {
   return c == 'e' || c == 'E' || c == 'd' || c == 'D' || c == 'q' || c == 'Q';
 }
 
+// Takes off a whole word that stands for no finite number.
+std::optional<double> take_word(std::string_view& text) {
+  std::size_t end = 0;
+  while (end < text.size() && !is_blank(text[end])) ++end;
+  std::string word(text.substr(0, end));
+  std::erase_if(word, [](char c) { return c == '+' || c == '-'; });
+  word = lower(std::move(word));
+  const bool stars = !word.empty() && word.find_first_not_of('*') == std::string::npos;
+  if (!stars && !word.starts_with("nan") && !word.starts_with("inf")) return std::nullopt;
+  text.remove_prefix(end);
+  return kNotANumber;
+}
+
 }  // namespace
 
 std::optional<double> take_number(std::string_view& text) {
@@ -40,18 +53,7 @@ std::optional<double> take_number(std::string_view& text) {
   }
   const bool has_digits =
       mantissa_end > digits_from && !(mantissa_end == digits_from + 1 && text[digits_from] == '.');
-  if (!has_digits) {
-    // A whole word that is no number.
-    std::size_t end = 0;
-    while (end < text.size() && !is_blank(text[end])) ++end;
-    std::string word(text.substr(0, end));
-    std::erase_if(word, [](char c) { return c == '+' || c == '-'; });
-    word = lower(std::move(word));
-    const bool stars = !word.empty() && word.find_first_not_of('*') == std::string::npos;
-    if (!stars && !word.starts_with("nan") && !word.starts_with("inf")) return std::nullopt;
-    text.remove_prefix(end);
-    return kNotANumber;
-  }
+  if (!has_digits) return take_word(text);
   if (peek(at) == '#') {  // 1.#QNAN of old run-time libraries
     while (at < text.size() && !is_blank(text[at])) ++at;
     text.remove_prefix(at);

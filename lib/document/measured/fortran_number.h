@@ -6,9 +6,9 @@
 
 namespace stablecut::document {
 
-/// One number at the front of the text, which is cut off: with D for E, without any letter before an exponent
-/// of three digits, and without a blank before a minus sign. Words for what is no finite number (NaN, Inf,
-/// ****) give a NaN; nothing for another text.
+/// Takes one number off the front of the text. D and Q may stand for E, an exponent of three digits may stand
+/// without a letter, and the next number may begin with its minus sign at once. Words that stand for no
+/// finite number (NaN, Inf, ****) give a NaN. Nothing for any other text, which stays as it is.
 std::optional<double> take_number(std::string_view& text);
 
 }  // namespace stablecut::document

@@ -7,7 +7,7 @@
 #include "base/number_text.h"
 #include "base/range.h"
 #include "base/units.h"
-#include "document/measured/frf_column_name.h"
+#include "document/measured/frf_column_plan.h"
 #include "document/text/data_error.h"
 #include "document/text/plain_text.h"
 #include "document/text/table_text.h"
@@ -15,34 +15,8 @@
 namespace stablecut::document {
 namespace {
 
-constexpr std::size_t kNoColumn = -1;
-
-// Where the numbers of one entry stand.
-struct EntryColumns {
-  std::string response = "x", reference = "x";
-  double sign = 1;
-  std::array<std::size_t, 2> columns = {kNoColumn, kNoColumn};  // re and im, or magnitude and phase
-  std::size_t coherence = kNoColumn;
-  bool polar = false, decibel = false;
-  std::optional<bool> radians;  // unknown: told from the numbers
-  std::optional<FrfUnit> unit;
-};
-
-struct ColumnPlan {
-  std::size_t frequency = 0;
-  double to_hz = 1;
-  std::vector<std::size_t> more_frequencies;  // repeated for each entry
-  std::vector<EntryColumns> entries;
-};
-
-bool is_number(const std::string& field) { return parse_number(field).has_value(); }
-
-// What programs write for a division by zero.
-bool is_no_number(const std::string& field) {
-  const std::string text = lower(field);
-  return text.find("nan") != std::string::npos || text.find("inf") != std::string::npos ||
-         text.starts_with("#");
-}
+constexpr double kMostRadians = 1.001 * kPi;  // a phase without a unit is in degrees beyond
+constexpr double kMostCoherence = 1 + 1e-6;   // a 1 as programs round it
 
 // The unit at the end of a row: its last field, or the last few together.
 std::optional<FrfUnit> unit_at_end(const TableRow& row) {
@@ -59,14 +33,14 @@ std::optional<FrfUnit> unit_at_end(const TableRow& row) {
 
 class ColumnReader {
  public:
-  ColumnReader(const Source& source, const ColumnChoice& choice, std::vector<std::string>& remarks)
+  ColumnReader(const Source& source, const FrfChoice& choice, std::vector<Remark>& remarks)
       : source_(source), choice_(choice), remarks_(remarks), rows_(table_rows(source)) {}
 
   dynamics::FrequencyResponse read() {
     if (rows_.empty()) throw DataError(source_.name, "", "", "empty input: expected columns of numbers");
     const std::size_t first = first_of_numbers();
     dynamics::FrequencyResponse frf;
-    plan_columns(first);
+    plan_ = plan_columns(source_, rows_, first, choice_);
     set_quantity(frf);
     take_numbers(frf, first);
     return frf;
@@ -94,12 +68,12 @@ class ColumnReader {
     std::size_t first = 0;
     while (first < rows_.size() && !is_numbers(first)) ++first;
     for (std::size_t i = 0; i < first; ++i) {
-      // A line of data with something wrong in it is none to be passed over.
+      // A row of data with something wrong in it is refused, not passed over as a header.
       const TableRow& row = rows_[i];
       const bool begins = !row.fields.empty() && is_number(row.fields[0]) && row.fields.size() >= 3;
       if (begins && (first == rows_.size() || row.fields.size() == rows_[first].fields.size()))
         data_wrong(row);
-      // Three numbers and a text: of a .frf, but its unit.
+      // Three numbers and a text: a .frf whose unit is not known.
       if (begins && is_number(row.fields[1]) && is_number(row.fields[2])) {
         std::string text;
         for (std::size_t f = 3; f < row.fields.size(); ++f) text += (f == 3 ? "" : " ") + row.fields[f];
@@ -110,181 +84,19 @@ class ColumnReader {
     if (first < rows_.size()) return first;
     if (rows_.size() == 1 && is_header(rows_.front()) && rows_.front().fields.size() >= 3)
       throw DataError(source_.name, line_place(rows_.front().line), "", "expected numbers below the header");
-    columns_wrong(rows_.back());
-  }
-
-  [[noreturn]] void columns_wrong(const TableRow& row) const {
-    throw DataError(
-        source_.name, line_place(row.line), std::to_string(row.fields.size()) + " columns",
-        "expected 3 columns (Hz, real, imaginary), 9 (xx, xy, yx, yy), or a header that names them");
+    refuse_column_count(source_, rows_.back());
   }
 
   [[noreturn]] void data_wrong(const TableRow& row) const {
     static constexpr std::array kWords = {"a frequency", "a real part", "an imaginary part"};
     for (std::size_t i = 0; i < row.fields.size(); ++i)
       table_number(source_, row, i, i < kWords.size() ? kWords[i] : "a number");
-    columns_wrong(row);
+    refuse_column_count(source_, row);
   }
 
-  void plan_columns(std::size_t first) {
-    const TableRow& numbers = rows_[first];
-    std::size_t names_row = first;
-    std::vector<std::optional<ColumnName>> names;
-    // The names are in the row before the numbers that has most of them; a row of units may follow it.
-    std::ptrdiff_t most = 0;
-    for (std::size_t i = first; i > 0; --i) {
-      std::vector<std::optional<ColumnName>> found;
-      for (const std::string& field : rows_[i - 1].fields) found.push_back(column_name(field));
-      const auto known =
-          std::count_if(found.begin(), found.end(), [](const auto& n) { return n.has_value(); });
-      const bool beyond_frequency = std::any_of(
-          found.begin(), found.end(), [](const auto& n) { return n && n->part != ColumnPart::kFrequency; });
-      if (known <= most || !beyond_frequency || found.size() < 3) continue;
-      most = known;
-      names = std::move(found);
-      names_row = i - 1;
-    }
-    if (names.empty() && first > 0) refuse_unknown_names(rows_[first - 1], numbers);
-    for (std::size_t i = names_row + 1; i < first; ++i) take_unit_row(rows_[i], names);
-    if (!names.empty()) {
-      header_line_ = rows_[names_row].line;
-      name_columns(names, number_of_columns(first));
-    }
-    if (plan_.entries.empty()) columns_by_count(first);
-  }
-
-  // A header of as many names as there are columns, none of which tells a part: what the columns hold would
-  // be a guess.
-  void refuse_unknown_names(const TableRow& row, const TableRow& numbers) const {
-    if (row.fields.size() < 3 || row.fields.size() > numbers.fields.size() || !is_header(row)) return;
-    std::string list;
-    for (const std::string& field : row.fields) list += (list.empty() ? "" : ", ") + field;
-    throw DataError(
-        source_.name, line_place(row.line), list,
-        "expected names that tell what the columns hold, as f_hz, re, im or f_hz, magnitude, phase");
-  }
-
-  // Units below the names.
-  static void take_unit_row(const TableRow& row, std::vector<std::optional<ColumnName>>& names) {
-    for (std::size_t i = 0; i < std::min(row.fields.size(), names.size()); ++i) {
-      if (names[i] && names[i]->unit.empty()) names[i]->unit = row.fields[i];
-    }
-  }
-
-  EntryColumns& entry_of(const ColumnName& name) {
-    const std::string response = name.response.empty() ? "x" : name.response;
-    const std::string reference = name.reference.empty() ? "x" : name.reference;
-    for (EntryColumns& entry : plan_.entries) {
-      if (entry.response == response && entry.reference == reference) return entry;
-    }
-    EntryColumns entry;
-    entry.response = response;
-    entry.reference = reference;
-    plan_.entries.push_back(entry);
-    return plan_.entries.back();
-  }
-
-  void name_columns(const std::vector<std::optional<ColumnName>>& names, std::size_t width) {
-    bool has_frequency = false;
-    if (names.size() < width) {
-      throw DataError(source_.name, line_place(header_line_), std::to_string(names.size()) + " names",
-                      "expected one for each of " + std::to_string(width) + " columns");
-    }
-    for (std::size_t i = 0; i < width; ++i) {
-      if (!names[i]) continue;
-      const ColumnName& name = *names[i];
-      if (name.part == ColumnPart::kFrequency) {
-        if (has_frequency) {
-          plan_.more_frequencies.push_back(i);
-          continue;
-        }
-        has_frequency = true;
-        plan_.frequency = i;
-        if (const auto unit = frequency_unit(name.unit)) {
-          plan_.to_hz = *unit;
-        } else if (!name.unit.empty()) {
-          header_wrong(name.unit, "expected a frequency in Hz, kHz, rad/s or rpm");
-        }
-        continue;
-      }
-      EntryColumns& entry = entry_of(name);
-      entry.sign = name.sign;
-      if (name.part == ColumnPart::kCoherence) {
-        entry.coherence = i;
-        continue;
-      }
-      const bool second = name.part == ColumnPart::kImaginary || name.part == ColumnPart::kPhase;
-      std::size_t& column = entry.columns[second ? 1 : 0];
-      const bool polar = name.part != ColumnPart::kReal && name.part != ColumnPart::kImaginary;
-      const bool has_other = entry.columns[second ? 0 : 1] != kNoColumn;
-      if (has_other && polar != entry.polar) {
-        // Both forms of one entry: the real and imaginary parts are enough.
-        if (polar) continue;
-        entry.columns = {kNoColumn, kNoColumn};
-      }
-      if (column != kNoColumn && polar == entry.polar)
-        header_wrong(entry.response + entry.reference, "expected each part once");
-      if (column != kNoColumn && polar) continue;
-      if (column != kNoColumn) entry.columns = {kNoColumn, kNoColumn};
-      entry.polar = polar;
-      entry.columns[second ? 1 : 0] = i;
-      const std::string unit = lower(name.unit);
-      // A unit row may say dB too.
-      entry.decibel =
-          name.part == ColumnPart::kDecibel || (second ? entry.decibel : polar && unit.starts_with("db"));
-      if (name.part == ColumnPart::kPhase) {
-        if (unit.starts_with("rad")) entry.radians = true;
-        if (unit.starts_with("deg") || unit == "\xC2\xB0" || unit == "\xB0") entry.radians = false;
-        if (!unit.empty() && !entry.radians) header_wrong(name.unit, "expected a phase in deg or rad");
-      } else if (const auto told = frf_unit(name.unit)) {
-        if (entry.unit && (entry.unit->to_si != told->to_si || entry.unit->quantity != told->quantity))
-          header_wrong(name.unit, "expected one unit for both parts of " + entry.response + entry.reference);
-        entry.unit = told;
-      } else if (!unit.empty() && unit != "db" && unit != "-" && !choice_.unit) {
-        header_wrong(name.unit,
-                     "expected a displacement, velocity or acceleration over a force, as m/N (or --unit)");
-      }
-    }
-    std::erase_if(plan_.entries, [](const EntryColumns& entry) {
-      return entry.columns[0] == kNoColumn && entry.columns[1] == kNoColumn;
-    });
-    for (const EntryColumns& entry : plan_.entries) {
-      if (entry.columns[0] != kNoColumn && entry.columns[1] != kNoColumn) continue;
-      header_wrong(entry.response + entry.reference,
-                   entry.polar ? "expected a column of the magnitude and one of the phase"
-                               : "expected a column of the real and one of the imaginary part");
-    }
-    // A first column without a name is the frequency; one that is taken for something else is not.
-    if (has_frequency) return;
-    for (const EntryColumns& entry : plan_.entries) {
-      if (entry.columns[0] == 0 || entry.columns[1] == 0 || entry.coherence == 0)
-        header_wrong("first column", "expected a column of frequencies");
-    }
-  }
-
-  [[noreturn]] void header_wrong(const std::string& value, const std::string& expected) const {
-    throw DataError(source_.name, line_place(header_line_), value, expected);
-  }
-
-  void columns_by_count(std::size_t first) {
-    const TableRow& row = rows_[first];
-    std::size_t count = 0;
-    while (count < row.fields.size() && (is_number(row.fields[count]) || is_no_number(row.fields[count])))
-      ++count;
-    const auto entry = [](const char* response, const char* reference, std::size_t column) {
-      EntryColumns columns;
-      columns.response = response;
-      columns.reference = reference;
-      columns.columns = {column, column + 1};
-      return columns;
-    };
-    if (count == 3) {
-      plan_.entries = {entry("x", "x", 1)};
-    } else if (count == 9) {
-      plan_.entries = {entry("x", "x", 1), entry("x", "y", 3), entry("y", "x", 5), entry("y", "y", 7)};
-    } else {
-      columns_wrong(row);
-    }
+  [[noreturn]] void header_wrong(const std::string& value, const std::string& expected,
+                                 Remedy remedy = Remedy::kNone) const {
+    throw DataError(source_.name, line_place(plan_.header_line), value, expected, remedy);
   }
 
   // One quantity for all entries; each entry's numbers times its own factor.
@@ -293,7 +105,7 @@ class ColumnReader {
     // At the end of the first line, be it a header or numbers.
     const std::optional<FrfUnit> at_end = unit_at_end(rows_.front());
     if (!common) common = at_end;
-    if (choice_.needs_unit && !common) {
+    if (choice_.form == FrfForm::kCutPro && !common) {
       throw DataError(source_.name, line_place(rows_.front().line), "",
                       "expected a unit at the end of the first line of a .frf, as m/N");
     }
@@ -302,14 +114,14 @@ class ColumnReader {
     const auto with_unit = std::count_if(plan_.entries.begin(), plan_.entries.end(),
                                          [](const EntryColumns& entry) { return entry.unit.has_value(); });
     if (!common && with_unit > 0 && with_unit < static_cast<std::ptrdiff_t>(plan_.entries.size()))
-      header_wrong("units", "expected them for all entries, or for none (--unit)");
+      header_wrong("units", "expected them for all entries, or for none", Remedy::kUnit);
     for (EntryColumns& entry : plan_.entries) {
       if (choice_.unit || (common && !entry.unit)) entry.unit = common;
       if (!entry.unit) continue;
       if (told && entry.unit->quantity != frf.quantity)
         header_wrong(entry.response + entry.reference, "expected the quantity of the columns before");
       if (!told && choice_.quantity && entry.unit->quantity != *choice_.quantity)
-        remarks_.push_back("the unit is none of what --quantity says: --quantity is believed");
+        remarks_.push_back({RemarkKind::kUnitOverruled, source_.name, {plan_.header_line}, "", "", {}});
       told = true;
       if (!choice_.quantity) frf.quantity = entry.unit->quantity;
     }
@@ -337,7 +149,7 @@ class ColumnReader {
       }
       frf.entries.push_back(std::move(entry));
     }
-    const std::size_t width = number_of_columns(first);
+    const std::size_t width = number_of_columns(rows_[first]);
     for (Eigen::Index line = 0; line < lines; ++line) {
       const TableRow& row = rows_[first + static_cast<std::size_t>(line)];
       check_width(row, width, line == 0);
@@ -360,14 +172,6 @@ class ColumnReader {
       finish_entry(frf.entries[e], plan_.entries[e], first);
   }
 
-  // A unit behind the numbers of the first line is no column, nor is an empty field.
-  std::size_t number_of_columns(std::size_t row) const {
-    const std::vector<std::string>& fields = rows_[row].fields;
-    std::size_t width = fields.size();
-    while (width > 0 && !is_number(fields[width - 1]) && !is_no_number(fields[width - 1])) --width;
-    return width;
-  }
-
   void check_width(const TableRow& row, std::size_t width, bool first) const {
     std::size_t fields = row.fields.size();
     while (fields > width && (row.fields[fields - 1].empty() || first)) --fields;
@@ -379,11 +183,11 @@ class ColumnReader {
   void take_entry(dynamics::FrequencyResponseEntry& entry, const EntryColumns& columns, const TableRow& row,
                   Eigen::Index line, bool at_zero) const {
     entry.h[line] = {
-        part_of(row, columns.columns[0], columns.polar ? "a magnitude" : "a real part", at_zero),
-        part_of(row, columns.columns[1], columns.polar ? "a phase" : "an imaginary part", at_zero)};
+        part_of(row, columns.parts[0], columns.polar ? "a magnitude" : "a real part", at_zero),
+        part_of(row, columns.parts[1], columns.polar ? "a phase" : "an imaginary part", at_zero)};
     if (columns.coherence == kNoColumn) return;
     const double coherence = part_of(row, columns.coherence, "a coherence", at_zero);
-    if (!(coherence >= 0 && coherence <= 1 + 1e-6)) {
+    if (!(coherence >= 0 && coherence <= kMostCoherence)) {
       throw DataError(source_.name, line_place(row.line), row.fields[columns.coherence],
                       "expected a coherence from 0 to 1");
     }
@@ -394,10 +198,14 @@ class ColumnReader {
   void finish_entry(dynamics::FrequencyResponseEntry& entry, const EntryColumns& columns, std::size_t first) {
     if (columns.polar) {
       const double largest = entry.h.imag().cwiseAbs().maxCoeff();
-      const bool radians = columns.radians.value_or(largest <= 1.001 * kPi);
+      const bool radians = columns.radians.value_or(largest <= kMostRadians);
       if (!columns.radians) {
-        remarks_.push_back("the phase of " + entry.response + entry.reference + " has no unit: up to " +
-                           number_text(largest) + ", taken as " + (radians ? "radians" : "degrees"));
+        remarks_.push_back({radians ? RemarkKind::kPhaseTakenAsRadians : RemarkKind::kPhaseTakenAsDegrees,
+                            source_.name,
+                            {},
+                            "",
+                            entry.response + entry.reference,
+                            {largest}});
       }
       for (auto& value : entry.h) {
         if (!columns.decibel && value.real() < 0) {
@@ -414,23 +222,22 @@ class ColumnReader {
     for (Eigen::Index i = 0; i < entry.h.size(); ++i) {
       if (std::isfinite(entry.h[i].real()) && std::isfinite(entry.h[i].imag())) continue;
       const TableRow& row = rows_[first + static_cast<std::size_t>(i)];
-      throw DataError(source_.name, line_place(row.line), row.fields[columns.columns[0]],
+      throw DataError(source_.name, line_place(row.line), row.fields[columns.parts[0]],
                       "expected a number that a double can hold");
     }
   }
 
   const Source& source_;
-  const ColumnChoice& choice_;
-  std::vector<std::string>& remarks_;
+  const FrfChoice& choice_;
+  std::vector<Remark>& remarks_;
   std::vector<TableRow> rows_;
   ColumnPlan plan_;
-  long header_line_ = 0;
 };
 
 }  // namespace
 
-dynamics::FrequencyResponse frf_from_columns(const Source& source, const ColumnChoice& choice,
-                                             std::vector<std::string>& remarks) {
+dynamics::FrequencyResponse frf_from_columns(const Source& source, const FrfChoice& choice,
+                                             std::vector<Remark>& remarks) {
   return ColumnReader(source, choice, remarks).read();
 }
 

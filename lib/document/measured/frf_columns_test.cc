@@ -11,12 +11,19 @@ using Complex = std::complex<double>;
 
 namespace {
 
-dynamics::FrequencyResponse read(const std::string& text, const ColumnChoice& choice = {}) {
-  std::vector<std::string> remarks;
+dynamics::FrequencyResponse read(const std::string& text, const FrfChoice& choice = {}) {
+  std::vector<Remark> remarks;
   return frf_from_columns({"f", text}, choice, remarks);
 }
 
-std::string complaint(const std::string& text, const ColumnChoice& choice = {}) {
+Remark only_remark(const std::string& text, const FrfChoice& choice = {}) {
+  std::vector<Remark> remarks;
+  frf_from_columns({"f", text}, choice, remarks);
+  REQUIRE(remarks.size() == 1);
+  return remarks[0];
+}
+
+std::string complaint(const std::string& text, const FrfChoice& choice = {}) {
   try {
     read(text, choice);
   } catch (const DataError& error) {
@@ -48,6 +55,7 @@ TEST_CASE("three columns in whatever dress") {
            "Analyser 3000\nDate: 2026-11-23, 12:00\nFrequency (Hz),Imag,Real\n1.5,3,2\n2.5,5,4\n",
            "Real,Imag,Frequency\n2,3,1.5\n4,5,2.5\n",
            "1.5 2 3 m/N\n2.5 4 5\n",
+           "1.5 2 3 m / N\n2.5 4 5\n",
            "1.5\t2000\t3000\t[mm/N]\n2.5\t4000\t5000\n",
            "Frequency Real Imaginary m/N\n1.5 2 3\n2.5 4 5\n",
            "\"Frequency\",\"Real\",\"Imag\"\n\"1.5\",\"2\",\"3\"\n\"2.5\",\"4\",\"5\"\n",
@@ -72,7 +80,11 @@ TEST_CASE("units and quantities") {
   CHECK(read("1 2 3\n", {.quantity = dynamics::Quantity::kMobility}).quantity ==
         dynamics::Quantity::kMobility);
   CHECK(read("1 2 3\n", {.unit = frf_unit("um/N")}).entries[0].h[0] == Complex(2e-6, 3e-6));
-  CHECK(complaint("1 2 3\n", {.needs_unit = true})
+  const Remark overruled =
+      only_remark("Hz,Re (g/N),Im (g/N)\n1,1,0\n", {.quantity = dynamics::Quantity::kMobility});
+  CHECK(overruled.kind == RemarkKind::kUnitOverruled);
+  CHECK(overruled.place.line == 1);
+  CHECK(complaint("1 2 3\n", {.form = FrfForm::kCutPro})
             .find("f: line 1: expected a unit at the end of the first line") == 0);
   CHECK(complaint("Hz,Re (V/V),Im (V/V)\n1,1,0\n").find("f: line 1: V/V: expected") == 0);
   CHECK(complaint("f (s),Re,Im\n1,1,0\n").find("f: line 1: s: expected a frequency") == 0);
@@ -85,6 +97,13 @@ TEST_CASE("magnitude and phase, coherence, several pairs") {
   // A phase without a unit, by its size.
   CHECK(std::abs(read("f,mag,phase\n1,1,3.14159265\n").entries[0].h[0] + 1.0) < 1e-8);
   CHECK(std::abs(read("f,mag,phase\n1,1,180\n").entries[0].h[0] + 1.0) < 1e-12);
+  const Remark degrees = only_remark("f,Mag(Hyx),Phase(Hyx)\n1,1,180\n2,1,-270\n");
+  CHECK(degrees.kind == RemarkKind::kPhaseTakenAsDegrees);
+  CHECK(degrees.entry == "yx");
+  CHECK(degrees.numbers == std::vector<double>{270});
+  CHECK(only_remark("f,mag,phase\n1,1,-3\n").kind == RemarkKind::kPhaseTakenAsRadians);
+  CHECK(only_remark("f,mag,phase\n1,1,-3.142\n").kind == RemarkKind::kPhaseTakenAsRadians);
+  CHECK(only_remark("f,mag,phase\n1,1,3.2\n").kind == RemarkKind::kPhaseTakenAsDegrees);
   const auto with_coherence = read("f,Re,Im,Coherence\n1,2,3,0.5\n2,3,4,1\n", {.averages = 5.0});
   REQUIRE(with_coherence.entries[0].coherence.size() == 2);
   CHECK(with_coherence.entries[0].coherence[0] == 0.5);
@@ -124,6 +143,14 @@ TEST_CASE("a bad line is named") {
   CHECK(complaint("f,Magnitude,b\n1,2,3\n")
             .find("f: line 1: xx: expected a column of the magnitude and one of") == 0);
   CHECK(complaint("f,Re,Im,Coh\n1,2,3,1.5\n") == "f: line 2: 1.5: expected a coherence from 0 to 1");
+}
+
+TEST_CASE("names that tell the frequency alone") {
+  // The other columns count as without names; a coherence by itself is no entry.
+  const auto frf = read("f_khz,a,coherence\n0.001,2,3\n");
+  CHECK(frf.frequency_hz[0] == 1);
+  CHECK(frf.entries.at(0).h[0] == Complex(2, 3));
+  CHECK(frf.entries[0].coherence.size() == 0);
 }
 
 TEST_CASE("what would be a guess is refused") {

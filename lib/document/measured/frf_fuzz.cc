@@ -8,6 +8,7 @@
 #include "document/kinds/frf_json.h"
 #include "document/measured/frf_import.h"
 #include "document/measured/frf_uff.h"
+#include "document/measured/frf_uff_writer.h"
 #include "document/text/data_error.h"
 
 using namespace stablecut;
@@ -15,7 +16,7 @@ using namespace stablecut::document;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   Input input{{"f", std::string(reinterpret_cast<const char*>(bytes), size)}, nullptr};
-  std::vector<std::string> remarks;
+  std::vector<Remark> remarks;
   try {
     const FrfForm form = FrfForm::STABLECUT_FUZZ_FORM;
     if (form == FrfForm::kJson) input.document = parse_json(input.source);

@@ -6,6 +6,7 @@
 #include "document/kinds/frf_json.h"
 #include "document/measured/frf_columns.h"
 #include "document/measured/frf_uff.h"
+#include "document/measured/universal_file.h"
 #include "document/text/data_error.h"
 
 namespace stablecut::document {
@@ -32,21 +33,14 @@ FrfForm frf_form_of(const Input& input, const FrfChoice& choice) {
 }
 
 dynamics::FrequencyResponse import_frf(const Input& input, const FrfChoice& choice,
-                                       std::vector<std::string>& remarks) {
+                                       std::vector<Remark>& remarks) {
   const FrfForm form = frf_form_of(input, choice);
-  if (form == FrfForm::kUniversalFile) {
-    return frf_from_universal_file(
-        input.source, {choice.quantity, choice.unit, choice.functions, choice.node, choice.averages},
-        remarks);
-  }
-  if (form != FrfForm::kJson) {
-    return frf_from_columns(
-        input.source, {choice.quantity, choice.unit, choice.averages, form == FrfForm::kCutPro}, remarks);
-  }
+  if (form == FrfForm::kUniversalFile) return frf_from_universal_file(input.source, choice, remarks);
+  if (form != FrfForm::kJson) return frf_from_columns(input.source, choice, remarks);
   dynamics::FrequencyResponse frf = frf_from_json(input.document, input.source);
   if (choice.quantity && frf.quantity != *choice.quantity) {
     throw DataError(input.source.name, "/quantity", quantity_name(frf.quantity),
-                    std::string("expected ") + quantity_name(*choice.quantity) + ", as --quantity says");
+                    std::string("expected ") + quantity_name(*choice.quantity), Remedy::kQuantity);
   }
   return frf;
 }
@@ -75,16 +69,14 @@ std::optional<FrfPart> frf_part_named(const std::string& directions) {
 }
 
 dynamics::FrequencyResponse import_frf_parts(const std::vector<FrfPart>& parts, const FrfChoice& choice,
-                                             std::vector<std::string>& remarks) {
+                                             std::vector<Remark>& remarks) {
   dynamics::FrequencyResponse all;
   for (const FrfPart& part : parts) {
     const std::string& name = part.input.source.name;
-    std::vector<std::string> own_remarks;
-    dynamics::FrequencyResponse frf = import_frf(part.input, choice, own_remarks);
-    for (const std::string& remark : own_remarks) remarks.push_back(name + ": " + remark);
+    dynamics::FrequencyResponse frf = import_frf(part.input, choice, remarks);
     if (frf.entries.size() != 1) {
       throw DataError(name, "", std::to_string(frf.entries.size()) + " entries",
-                      "expected one in a file of --entry (--functions LIST takes some of them)");
+                      "expected one in each of several files", Remedy::kFunctions);
     }
     dynamics::FrequencyResponseEntry& entry = frf.entries[0];
     const std::string told = entry.response + entry.reference;
@@ -94,7 +86,7 @@ dynamics::FrequencyResponse import_frf_parts(const std::vector<FrfPart>& parts, 
     entry.reference = reference;
     const FrfForm form = frf_form_of(part.input, choice);
     if ((form == FrfForm::kJson || form == FrfForm::kUniversalFile) && told != response + reference)
-      remarks.push_back(name + ": says " + told + ": taken for " + response + reference);
+      remarks.push_back({RemarkKind::kDirectionsOverruled, name, {}, told, response + reference, {}});
     if (all.entries.empty()) {
       all = std::move(frf);
       continue;

@@ -8,6 +8,8 @@
 #include <functional>
 #include <iterator>
 
+#include "document/measured/frf_uff_writer.h"
+#include "document/measured/universal_file.h"
 #include "document/text/data_error.h"
 
 using namespace stablecut;
@@ -16,18 +18,24 @@ using Complex = std::complex<double>;
 
 namespace {
 
-dynamics::FrequencyResponse read(const std::string& text, const UniversalChoice& choice = {}) {
-  std::vector<std::string> remarks;
+dynamics::FrequencyResponse read(const std::string& text, const FrfChoice& choice = {}) {
+  std::vector<Remark> remarks;
   return frf_from_universal_file({"f", text}, choice, remarks);
 }
 
-std::vector<std::string> remarks_on(const std::string& text, const UniversalChoice& choice = {}) {
-  std::vector<std::string> remarks;
+std::vector<Remark> remarks_on(const std::string& text, const FrfChoice& choice = {}) {
+  std::vector<Remark> remarks;
   frf_from_universal_file({"f", text}, choice, remarks);
   return remarks;
 }
 
-std::string complaint(const std::string& text, const UniversalChoice& choice = {}) {
+Remark only_remark(const std::string& text, const FrfChoice& choice = {}) {
+  const std::vector<Remark> remarks = remarks_on(text, choice);
+  REQUIRE(remarks.size() == 1);
+  return remarks[0];
+}
+
+std::string complaint(const std::string& text, const FrfChoice& choice = {}) {
   try {
     read(text, choice);
   } catch (const DataError& error) {
@@ -155,6 +163,12 @@ TEST_CASE("dataset 58 in whatever dress") {
          d.ordinate = "12 1 0 0 Acceleration  m/s^2\n";
          d.denominator = "13 0 1 0 Force  N\n";
        })},
+      {"axis records that end before their columns", changed([](Dataset& d) {
+         d.abscissa = "18 0 0 0 f  Hz\n";
+         d.ordinate = "12 1 0 0 a  m/s^2\n";
+         d.denominator = "13 0 1 0 F  N\n";
+         d.z = "0\n";
+       })},
       {"names with blanks", changed([](Dataset& d) {
          d.places = "    4         0    0         0  sine 5 Hz         1   1       NONE         1   1\n";
        })},
@@ -245,11 +259,12 @@ TEST_CASE("functions become a matrix by node and direction, signs taken off") {
   CHECK(matrix.find("y", "z")->h[0] == -kValues[0]);
   // One place for the sensor, one for the hammer: the same, said so.
   CHECK(read(function(1, 1, 2, 1)).find("x", "x") != nullptr);
-  CHECK(remarks_on(function(1, 1, 2, 1))
-            .at(0)
-            .find("responses at node 1, forces at node 2: taken for the same place") == 0);
+  CHECK(only_remark(function(1, 1, 2, 1)).kind == RemarkKind::kTwoNodes);
+  CHECK(only_remark(function(1, 1, 2, 1)).numbers == std::vector<double>{1, 2});
   const std::string several = function(1, 1, 1, 1) + function(1, 1, 2, 1) + function(2, 1, 1, 1);
   CHECK(read(several).find("x@1", "x@2") != nullptr);
+  CHECK(only_remark(several).kind == RemarkKind::kSeveralNodes);
+  CHECK(only_remark(several).numbers == std::vector<double>{2, 2, 1});
   CHECK(read(several, {.node = 1}).entries.size() == 1);
   CHECK(complaint(several, {.node = 9}).find("f: node 9: expected a node at which both") == 0);
   CHECK(complaint(function(1, 1, 1, 1) + function(1, -1, 1, -1))
@@ -258,7 +273,7 @@ TEST_CASE("functions become a matrix by node and direction, signs taken off") {
         -kValues[0]);
   CHECK(complaint(function(1, 1, 1, 1), {.functions = {2}}) ==
         "f: function 2: expected one of the file's 1 functions");
-  CHECK(remarks_on(function(1, 0, 1, 0)).at(0).find("directions 0, which are none: taken as x") == 0);
+  CHECK(only_remark(function(1, 0, 1, 0)).kind == RemarkKind::kDirectionMissing);
 }
 
 TEST_CASE("what a function means") {
@@ -287,14 +302,12 @@ TEST_CASE("what a function means") {
                 "        13    0    1    0 NONE                 NONE                ");
   const double inch_per_pound = 0.0254 / 4.4482216152605;
   CHECK(std::abs(read(units + unlabelled).entries[0].h[0] / kValues[0] - inch_per_pound) < 1e-9);
-  CHECK(remarks_on(unlabelled).at(0).find("no unit, and no dataset 164: taken as SI") == 0);
+  CHECK(only_remark(unlabelled).kind == RemarkKind::kUnitMissing);
   // A label in g is believed beside dataset 164; another that contradicts it is not. Both are said.
   CHECK(std::abs(read(units + in_g).entries[0].h[0] - 9.80665 * kValues[0]) < 1e-12);
-  CHECK(remarks_on(units + in_g).at(0).find("g over N: taken with a g of 9.80665 m/s^2") !=
-        std::string::npos);
+  CHECK(only_remark(units + in_g).kind == RemarkKind::kUnitInG);
   CHECK(std::abs(read(units + Dataset().text()).entries[0].h[0] / kValues[0] - inch_per_pound) < 1e-9);
-  CHECK(remarks_on(units + Dataset().text()).at(0).find("dataset 164 says otherwise, and is believed") !=
-        std::string::npos);
+  CHECK(only_remark(units + Dataset().text()).kind == RemarkKind::kUnitContradicted);
   CHECK(read(units + in_g, {.unit = frf_unit("m/N")}).entries[0].h[0] == kValues[0]);
   CHECK(read(Dataset().text(), {.quantity = dynamics::Quantity::kMobility}).quantity ==
         dynamics::Quantity::kMobility);
@@ -302,17 +315,62 @@ TEST_CASE("what a function means") {
   CHECK(read(unlabelled + units).entries[0].h == read(units + unlabelled).entries[0].h);
   const std::string volts =
       with_axes("        12    1    0    0 Acceleration         V                   ", force);
-  CHECK(remarks_on(volts).at(0).find(
-            "line 11 (function 1, record 9): V over N: not known as a unit, and there is no dataset 164") ==
-        0);
-  CHECK(remarks_on(units + volts).at(0).find("V over N: not known as a unit: dataset 164 is believed") !=
-        std::string::npos);
+  const Remark unknown = only_remark(volts);
+  CHECK(unknown.kind == RemarkKind::kUnitUnknownTakenAsSi);
+  CHECK(unknown.file == "f");
+  CHECK(unknown.place.text() == "line 11 (function 1, record 9)");
+  CHECK(unknown.written == "V over N");
+  CHECK(only_remark(units + volts).kind == RemarkKind::kUnitUnknown);
+  // Of functions alike it is said once.
+  CHECK(remarks_on(units + volts + changed([](Dataset& d) {
+                     d.places.replace(54, 1, "2");
+                     d.ordinate.replace(47, 5, "V    ");
+                   }))
+            .size() == 1);
   const std::string nothing =
       with_axes("         0    0    0    0 NONE                 NONE                ",
                 "         0    0    0    0 NONE                 NONE                ");
   CHECK(complaint(nothing).find(
             "f: line 11 (function 1, record 9): data type 0: does not say what the response is") == 0);
   CHECK(read(nothing, {.quantity = dynamics::Quantity::kReceptance}).entries.size() == 1);
+  // m/s^2, said to be a mobility.
+  const auto overruled = remarks_on(Dataset().text(), {.quantity = dynamics::Quantity::kMobility});
+  REQUIRE(overruled.size() == 2);
+  CHECK(overruled[0].kind == RemarkKind::kQuantityOverruled);
+  CHECK(overruled[1].kind == RemarkKind::kUnitUnknownTakenAsSi);
+  const std::string velocity =
+      with_axes("        12    1    0    0 Acceleration         m/s                 ", force);
+  const auto other_quantity = remarks_on(velocity);
+  REQUIRE(other_quantity.size() == 2);
+  CHECK(other_quantity[0].kind == RemarkKind::kUnitOfOtherQuantity);
+  CHECK(other_quantity[1].kind == RemarkKind::kUnitUnknownTakenAsSi);
+  const std::string of_turns = changed([](Dataset& d) {
+    d.abscissa = "        18    0    0    0 Frequency            turns               \n";
+  });
+  CHECK(only_remark(of_turns).kind == RemarkKind::kFrequencyUnitUnknown);
+  CHECK(only_remark(of_turns).place.record == 8);
+}
+
+TEST_CASE("lines and units that differ by their digits only are the same") {
+  const auto second = [](const char* first, const char* step) {
+    return changed([&](Dataset& d) {
+      d.places = "    4         0    0         0 NONE               1   1 NONE               1   2\n";
+      d.layout = std::string("         5         3         1  ") + first + "  " + step + "  0.00000E+00\n";
+    });
+  };
+  CHECK(read(Dataset().text() + second("1.00001E+00", "5.00000E-01")).entries.size() == 2);
+  CHECK(complaint(Dataset().text() + second("1.00010E+00", "5.00000E-01"))
+            .find("expected the 3 lines of the functions before") != std::string::npos);
+  // mm/s^2 over N beside a dataset 164 of so many units a metre.
+  const auto beside = [](const char* per_metre) {
+    return std::string("    -1\n   164\n         5MM                             0\n  ") + per_metre +
+           "  1.00000000000000000D+00  1.00000000000000000D+00\n  2.73160000000000025D+02\n    -1\n" +
+           changed([](Dataset& d) {
+             d.ordinate = "        12    1    0    0 Acceleration         mm/s^2              \n";
+           });
+  };
+  CHECK(remarks_on(beside("1.00010000000000000D+03")).empty());
+  CHECK(only_remark(beside("1.01000000000000000D+03")).kind == RemarkKind::kUnitContradicted);
 }
 
 TEST_CASE("what is no frequency response is refused with function, record and line") {
@@ -345,9 +403,12 @@ TEST_CASE("what is no frequency response is refused with function, record and li
   // Beside a frequency response it is left out, and said.
   const std::string both = changed([](Dataset& d) { d.places[4] = '1'; }) + Dataset().text();
   CHECK(read(both).entries.size() == 1);
-  CHECK(remarks_on(both).at(0) ==
-        "line 8 (function 1, record 6): function type 1, a time response: left out: expected type 4, a "
-        "frequency response");
+  const Remark left_out = only_remark(both);
+  CHECK(left_out.kind == RemarkKind::kNoFrequencyResponse);
+  CHECK(left_out.place.line == 8);
+  CHECK(left_out.place.function == 1);
+  CHECK(left_out.place.record == 6);
+  CHECK(left_out.numbers == std::vector<double>{1});
 }
 
 TEST_CASE("coherences go to their entries") {
@@ -371,8 +432,10 @@ TEST_CASE("coherences in percent") {
     d.values = "  9.00000E+01  1.00000E+02  5.00000E+01\n";
   });
   CHECK(read(Dataset().text() + coherence).entries[0].coherence == Eigen::Vector3d(0.9, 1, 0.5));
-  CHECK(remarks_on(Dataset().text() + coherence).at(0).find("coherences up to 100: taken as percent") !=
-        std::string::npos);
+  const Remark percent = only_remark(Dataset().text() + coherence);
+  CHECK(percent.kind == RemarkKind::kCoherenceTakenAsPercent);
+  CHECK(percent.place.function == 2);
+  CHECK(percent.numbers == std::vector<double>{100});
 }
 
 TEST_CASE("what a division by zero leaves at 0 Hz is no error in a universal file") {

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "document/measured/remark.h"
 #include "document/text/json_text.h"
 
 namespace stablecut::document {
@@ -16,22 +17,33 @@ namespace stablecut::document {
 /// Records before the values.
 inline constexpr int kUniversalHeaderRecords = 11;
 
+/// The numbers by which dataset 58 tells function types and data types, of those that matter here.
+namespace universal {
+// Function types, record 6.
+inline constexpr int kGeneral = 0, kFrequencyResponse = 4, kCoherence = 6;
+// Data types, records 8 to 10. 0 (unknown) and 1 (general) do not say what an axis holds.
+inline constexpr int kLastUnspecific = 1, kDisplacement = 8, kReactionForce = 9, kVelocity = 11,
+                     kAcceleration = 12, kForce = 13, kTime = 17, kFrequency = 18;
+}  // namespace universal
+
 /// Records 8 to 11: what an axis holds.
 struct UniversalAxis {
-  int data_type = 0;  ///< 0 unknown, 1 general, 8 displacement, 11 velocity, 12 acceleration, 13 force, 17
-                      ///< time, 18 frequency, ...
+  int data_type = 0;
   std::string label;  ///< `NONE` and blanks are empty
   std::string unit;   ///< likewise
 };
 
-/// A node and a direction: 0 none, 1 to 3 along x, y, z, 4 to 6 about them, negative against them.
-struct UniversalPlace {
+/// A nodal degree of freedom: a node and a direction, 0 none, 1 to 3 along x, y, z, 4 to 6 about them,
+/// negative against them.
+struct UniversalDof {
   std::string entity;
   int node = 0;
   int direction = 0;
+
+  bool is_translation() const { return direction >= -3 && direction <= 3; }
 };
 
-/// Dataset 164: numbers in the file over these factors are in SI.
+/// Dataset 164: a number in the file divided by its factor is in SI.
 struct UniversalUnits {
   double length_factor = 1;
   double force_factor = 1;
@@ -42,16 +54,15 @@ struct UniversalFunction {
   int number = 0;  ///< 1-based among the file's functions
   long line = 0;   ///< of record 1; record r (up to 11) is on line + r - 1
   std::array<std::string, 5> id;
-  int type = 0;  ///< 1 time response, 2 auto spectrum, 4 frequency response, 6 coherence, ...
-  UniversalPlace response, reference;
+  int type = 0;
+  UniversalDof response, reference;
   bool is_complex = false;
   Eigen::VectorXd abscissa;  ///< [values] as written
   Eigen::VectorXcd values;   ///< [values] as written; not a number where the file says so
   UniversalAxis abscissa_axis, ordinate, denominator;
   std::optional<UniversalUnits> units;  ///< the last dataset 164 before it, else the first behind it
 
-  /// `line 6 (function 1, record 5)`.
-  std::string place(int record) const;
+  FilePlace place(int record) const { return {line + record - 1, number, record}; }
 };
 
 /// The functions of the file, in its order. Throws DataError with line, function and record for what cannot

@@ -40,10 +40,10 @@ std::string axis_record(const UniversalAxis& axis, int length_exponent, int forc
   return text;
 }
 
-std::string place_field(const UniversalPlace& place) {
+std::string dof_field(const UniversalDof& dof) {
   char text[40];
-  std::snprintf(text, sizeof text, " %-10.10s%10d%4d", place.entity.empty() ? "NONE" : place.entity.c_str(),
-                place.node, place.direction);
+  std::snprintf(text, sizeof text, " %-10.10s%10d%4d", dof.entity.empty() ? "NONE" : dof.entity.c_str(),
+                dof.node, dof.direction);
   return text;
 }
 
@@ -102,7 +102,7 @@ std::string universal_function(const UniversalFunction& function, UniversalForm 
   }
   for (const std::string& id : function.id) text += (id.empty() ? "NONE" : id.substr(0, 80)) + "\n";
   std::snprintf(line, sizeof line, "%5d%10d%5d%10d", function.type, 0, 0, 0);
-  text += line + place_field(function.response) + place_field(function.reference) + "\n";
+  text += line + dof_field(function.response) + dof_field(function.reference) + "\n";
   std::snprintf(line, sizeof line, "%10d%10ld%10d", 6, static_cast<long>(count), even ? 1 : 0);
   text +=
       line + (even ? first_text + step_text : in_13_columns(0) + in_13_columns(0)) + in_13_columns(0) + "\n";

@@ -60,3 +60,11 @@ TEST_CASE("a number that is not finite never reaches a document") {
   CHECK_THROWS_AS(json_text(Json(std::numeric_limits<double>::quiet_NaN())), std::logic_error);
   CHECK_THROWS_AS(json_text(Json{{"a", {1.0, std::numeric_limits<double>::infinity()}}}), std::logic_error);
 }
+
+TEST_CASE("documents are nested, but not without end") {
+  const auto nested = [](std::size_t levels) {
+    return std::string(levels, '[') + "1" + std::string(levels, ']');
+  };
+  CHECK(json_text(parse_json({"f", nested(150)})).size() > 300);
+  CHECK_THROWS_WITH(parse_json({"f", nested(201)}), Catch::Contains("nested too deeply"));
+}
