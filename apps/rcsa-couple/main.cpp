@@ -71,8 +71,6 @@ class RcsaCouple : public cli::Tool {
     add_file_option(app, "--rigid", rigid_path_, "Also write the tip with a rigid joint (frf)");
   }
 
-  std::string option_for(Remedy remedy) const override { return remedy == Remedy::kUnit ? "--unit" : ""; }
-
   void run() override {
     if (identify_path_.empty()) {
       cli::refuse_if(!fitted_path_.empty(), "--fitted: expected only with --identify");

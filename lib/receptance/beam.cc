@@ -15,9 +15,8 @@ namespace {
 using Complex = std::complex<double>;
 
 // README.md, section 3; derived by scripts/derive/beam_series.py.
-constexpr double kSeriesLimit =
-    2;                          // of wavenumber times length: below it the power series, above it cos, cosh
-constexpr int kMostTerms = 16;  // of the power series
+constexpr double kSeriesLimit = 2;   // wavenumber times length up to which the power series are used
+constexpr int kMostTerms = 16;       // of the power series
 constexpr double kLastTerm = 1e-20;  // relative to the first term, 1
 
 // The coefficients of Timoshenko's equations for one segment at one frequency; solutions are exp(s x) with

@@ -285,7 +285,7 @@ class AssemblyReader {
   }
 
   receptance::MeasuredHolder of_taps(const Node& node, const Node& content) {
-    receptance::HolderMeasurement measurement{measured_receptances(content), 0, {}};
+    receptance::HolderMeasurement measurement{receptances_from(content, load_, document_.warnings), 0, {}};
     if (const auto mass = node.find("sensor_mass_g"))
       measurement.sensor_mass_kg = 1e-3 * mass->number(kNotNegative);
     if (const auto artefact = node.find("artefact")) {
@@ -296,19 +296,6 @@ class AssemblyReader {
       return receptance::measured_holder(measurement, assembly_.theory, assembly_.frequency_hz);
     } catch (const InvalidArgument& error) {
       throw DataError(content.source().name, content.pointer(), "", error.what());
-    }
-  }
-
-  // What the reader of a measured file suggests to change is a field of this document here.
-  dynamics::FrequencyResponse measured_receptances(const Node& content) {
-    try {
-      return receptances_from(content, load_, document_.warnings);
-    } catch (const DataError& error) {
-      const bool unit = error.remedy() == Remedy::kUnit;
-      if (!unit && error.remedy() != Remedy::kQuantity) throw;
-      throw DataError(
-          error.what() + std::string(unit ? " (\"unit\"" : " (\"quantity\"") + " beside \"file\")", "", "",
-          "");
     }
   }
 
