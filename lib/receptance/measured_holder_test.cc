@@ -198,6 +198,14 @@ TEST_CASE("the finite difference: exact for a rigid holder, its noise and its en
   for (auto& entry : noisy.frf.entries) entry.variance = entry.h.cwiseAbs2();
   CHECK(measured_holder(noisy, kTheory, kLines).quality[0].noisy_hz.size() ==
         static_cast<std::size_t>(kLines.size()));
+  // The same on an artefact: none below the noise of the other tests, all in a large one.
+  HolderMeasurement along{
+      taps_on(modal_holder(spindle(false), kLines), artefact(), 0, {{0, 0}, {0, 0.03}, {0.03, 0.03}}), 0,
+      artefact()};
+  CHECK(measured_holder(along, kTheory, kLines).quality[0].noisy_hz.empty());
+  for (auto& entry : along.frf.entries) entry.variance = entry.h.cwiseAbs2();
+  CHECK(measured_holder(along, kTheory, kLines).quality[0].noisy_hz.size() ==
+        static_cast<std::size_t>(kLines.size()));
   // A curve of the wrong sign gives energy away.
   HolderMeasurement wrong = at_tip({{0, 0}, {0, 0.02}});
   for (auto& entry : wrong.frf.entries) entry.h *= -1;
