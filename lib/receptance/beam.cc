@@ -59,7 +59,7 @@ Waves waves_of(const BeamSegment& s, BeamTheory theory, double omega) {
   }
   const Complex root = std::sqrt(0.25 * (w.a - w.b) * (w.a - w.b) + w.c4);
   w.q = -0.5 * (w.a + w.b) - root;
-  w.p = (w.a * w.b - w.c4) / w.q;  // from the product of the roots: -0.5 (a + b) + root would cancel
+  w.p = (w.a * w.b - w.c4) / w.q;  // the product of the roots
   return w;
 }
 
