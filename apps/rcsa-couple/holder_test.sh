@@ -33,7 +33,7 @@ jq -r '.frequency_hz as $f | .h[2] as $h | range($f | length) | "\($f[.]) \($h.r
 jq '.holder = {receptances: [{file: "here.txt"}, {file: "there.txt", reference_position_mm: 45}]}' carbide-in-collet.json >difference.json
 rcsa-couple difference.json -o difference-out.json 2>log
 check_jq "the finite difference" difference-out.json '.holder.x == .holder.y and .holder.x.slopes == "finite difference" and .holder.x.spacing_mm == 45 and .holder.x.moment_to_slope == "l n / h"'
-check "its limits are said" grep -q 'finite difference over 45 mm, good where the part bends little' log
+check "its limits are said" grep -q 'finite difference over 45 mm, good where the part bends little between' log
 check "one direction serves both, and says so" grep -q 'yy is missing: y is taken as x' log
 # A sensor's mass: taps loaded by it on the artefact, and without it.
 jq '{format, frequency_hz: {from: 50, to: 4000, count: 396}, beam_theory, materials, tool: .holder.end.artefact, holder: {modal_table: {file: "spindle-modes.json"}}, joint: "rigid"}' carbide-in-collet.json >artefact.json
@@ -57,10 +57,10 @@ with() {
 taps=carbide-in-collet.json
 with $taps '.holder.end = {}' 65 'bad.json: /holder/end/receptances: missing'
 with $taps '.holder.end.modal_table = {}' 65 'bad.json: /holder/end/receptances: .*not both'
-with $taps '.holder.modal_table = {file: "spindle-modes.json"}' 65 'bad.json: /holder/segments: .*expected segments with an end'
-with $taps '.holder.sensor_mass_g = 2' 65 'bad.json: /holder/sensor_mass_g: 2: expected this beside receptances'
-with of-modes.json '.holder.end.artefact = {}' 65 'bad.json: /holder/end/artefact: .*expected this beside receptances'
-with difference.json '.holder.receptances[1].reference_position_mm = 0' 65 'bad.json: /holder/receptances/1: .*has xx at places that the list has already'
+with $taps '.holder.modal_table = {file: "spindle-modes.json"}' 65 'bad.json: /holder/segments: .*expected either segments and an end'
+with $taps '.holder.sensor_mass_g = 2' 65 'bad.json: /holder/sensor_mass_g: 2: expected only beside receptances'
+with of-modes.json '.holder.end.artefact = {}' 65 'bad.json: /holder/end/artefact: .*expected only beside receptances'
+with difference.json '.holder.receptances[1].reference_position_mm = 0' 65 'bad.json: /holder/receptances/1: .*xx at these places is in the list already'
 with $taps '.holder.end.artefact.segments[0].length_mm = 40' 65 'bad.json: /holder/end/receptances: position 45 mm: expected a place on the artefact, up to 40'
 with $taps '.holder.end.receptances.file = "none.json"' 66 'none.json: cannot be read'
 with $taps '.holder.end.receptances.file = "spindle-modes.json"' 65 'spindle-modes.json: /format: .*expected "stablecut/frf/1"'

@@ -75,15 +75,15 @@ check "a unit that is not known" grep -Eq '^rcsa-couple: warning: volts.uff: lin
 rcsa-couple --identify "$data/taps/nodes.uff" "$data/carbide-in-collet.json" >nodes.json 2>log
 check "no option for what it cannot choose" grep -Eq 'a direction is named with its node, as x@1$' log
 refused 64 '^rcsa-couple: --unit: a frf document says its units itself' rcsa-couple --identify plain.json --unit um/N "$data/carbide-in-collet.json"
-refused 64 '^rcsa-couple: --unit: expected --identify' rcsa-couple "$assembly" --unit um/N
+refused 64 '^rcsa-couple: --unit: expected only with --identify' rcsa-couple "$assembly" --unit um/N
 
-refused 64 '^rcsa-couple: --fitted: expected --identify' rcsa-couple "$assembly" --fitted x.json
-refused 64 '^rcsa-couple: --bounds: expected --identify' rcsa-couple "$assembly" --bounds k1=1:2
+refused 64 '^rcsa-couple: --fitted: expected only with --identify' rcsa-couple "$assembly" --fitted x.json
+refused 64 '^rcsa-couple: --bounds: expected only with --identify' rcsa-couple "$assembly" --bounds k1=1:2
 refused 64 '^rcsa-couple: --bounds: k3=1:2: expected' rcsa-couple --identify joint.json "$assembly" --bounds k3=1:2
 refused 64 '^rcsa-couple: --bounds: k1=0:2: expected' rcsa-couple --identify joint.json "$assembly" --bounds k1=0:2
 refused 64 '^rcsa-couple: --bounds: k1=2:1: expected' rcsa-couple --identify joint.json "$assembly" --bounds c1=0:1,k1=2:1
 refused 64 '^rcsa-couple: --objective: phase: expected' rcsa-couple --identify joint.json "$assembly" --objective phase
-refused 64 '^rcsa-couple: --joint: expected no --identify' rcsa-couple --identify joint.json --joint found.json "$assembly"
+refused 64 '^rcsa-couple: --joint: expected only without --identify' rcsa-couple --identify joint.json --joint found.json "$assembly"
 refused 64 '^rcsa-couple: -: expected standard input for one input only' rcsa-couple --identify - <joint.json
 refused 66 '^rcsa-couple: none.json: cannot be read' rcsa-couple --identify none.json "$assembly"
 refused 65 '^rcsa-couple: found.json: /format: .*expected "stablecut/frf/1"' rcsa-couple --identify found.json "$assembly"

@@ -10,18 +10,25 @@ namespace stablecut::receptance {
 
 using Complex = std::complex<double>;
 
-Inverse inverse_of(const std::vector<const Tap*>& taps, Artefact& artefact, bool symmetric,
-                   Eigen::Index line) {
+namespace {
+
+constexpr double kLeastTapDeviation = 1e-12;  // of a tap's value, where its variance says less
+
+}  // namespace
+
+OpeningStiffness opening_stiffness(const std::vector<const Tap*>& taps, Artefact& artefact, bool symmetric,
+                                   Eigen::Index line) {
   const Eigen::Index rows = taps.size();
   Eigen::MatrixXcd system(rows, symmetric ? 3 : 4);
   Eigen::VectorXcd right(rows);
   for (Eigen::Index i = 0; i < rows; ++i) {
     const Tap& tap = *taps[i];
-    const Eigen::RowVector2cd a = artefact.to_joint(tap.response_m), b = artefact.to_joint(tap.reference_m);
-    const double least = 1e-12 * std::abs(tap.h[line]);
-    const double weight = 1 / std::max({std::sqrt(tap.variance[line]), least, 1e-300});
-    right[i] =
-        weight * ((symmetric ? artefact.between(tap.response_m, tap.reference_m) : Complex(0)) - tap.h[line]);
+    const Eigen::RowVector2cd a = artefact.response_to_end_2(tap.response_m),
+                              b = artefact.response_to_end_2(tap.reference_m);
+    const double least = kLeastTapDeviation * std::abs(tap.h[line]);
+    const double weight = 1 / std::max({std::sqrt(tap.variance[line]), least, kAboveZero});
+    const Complex free = symmetric ? artefact.receptance(tap.response_m, tap.reference_m) : Complex(0);
+    right[i] = weight * (free - tap.h[line]);
     if (symmetric) {
       system.row(i) << a[0] * b[0], a[0] * b[1] + a[1] * b[0], a[1] * b[1];
     } else {
@@ -29,24 +36,24 @@ Inverse inverse_of(const std::vector<const Tap*>& taps, Artefact& artefact, bool
     }
     system.row(i) *= weight;
   }
-  const Eigen::VectorXd scale = system.colwise().norm().cwiseMax(1e-300).cwiseInverse();
+  // Columns of size 1: forces and moments differ by orders of magnitude.
+  const Eigen::VectorXd scale = system.colwise().norm().cwiseMax(kAboveZero).cwiseInverse();
   const Eigen::MatrixXcd scaled = system * scale.asDiagonal();
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXcd> solver(scaled);
   if (solver.rank() < scaled.cols()) {
     throw InvalidArgument(
         "the taps along the artefact are too alike to tell what holds it: expected pairs of at least two "
-        "places, as "
-        "0 and 0, 0 and 45, 45 and 45 mm");
+        "places, as 0 and 0, 0 and 45, 45 and 45 mm");
   }
   const Eigen::VectorXcd y = scale.asDiagonal() * solver.solve(right);
-  Inverse inverse;
+  OpeningStiffness stiffness;
   if (symmetric) {
-    inverse.value << y[0], y[1], y[1], y[2];
-    inverse.covariance = scale.asDiagonal() * (scaled.adjoint() * scaled).inverse() * scale.asDiagonal();
+    stiffness.value << y[0], y[1], y[1], y[2];
+    stiffness.covariance = scale.asDiagonal() * (scaled.adjoint() * scaled).inverse() * scale.asDiagonal();
   } else {
-    inverse.value << y[0], y[1], y[2], y[3];
+    stiffness.value << y[0], y[1], y[2], y[3];
   }
-  return inverse;
+  return stiffness;
 }
 
 }  // namespace stablecut::receptance

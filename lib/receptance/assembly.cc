@@ -6,9 +6,9 @@
 namespace stablecut::receptance {
 namespace {
 
-// Both directions from one or from each: blocks on the diagonal.
+// The 4 x 4 receptance of directions that are not coupled: one block for each, or the same block twice.
 template <typename InDirection>
-Receptance<4> in_both(bool same, const InDirection& in_direction) {
+Receptance<4> uncoupled(bool same, const InDirection& in_direction) {
   Receptance<4> both = Receptance<4>::Zero();
   both.topLeftCorner<2, 2>() = in_direction(0);
   if (same) {
@@ -19,7 +19,7 @@ Receptance<4> in_both(bool same, const InDirection& in_direction) {
   return both;
 }
 
-// The joint's receptance Kc^-1; zero for a rigid one.
+// Kc^-1; zero for a rigid joint.
 Receptance<2> joint_receptance(const std::optional<ToolJoint>& joint, double omega) {
   Receptance<2> result = Receptance<2>::Zero();
   if (joint) result.diagonal() = joint->stiffness(omega).cwiseInverse();
@@ -32,7 +32,7 @@ Receptance<2> Assembly::holder(int direction, Eigen::Index line) const {
   const HeldBy& by = held[direction];
   const double omega = rad_per_s_from_hz(frequency_hz[line]);
   if (by.end == HolderEnd::kFree) {
-    if (by.segments.empty()) throw InvalidArgument("holder: a free end: expected a segment");
+    if (by.segments.empty()) throw InvalidArgument("holder: a free end needs a segment");
     const BeamChain outer(by.segments.begin(), by.segments.end() - 1);
     return held_chain<2>(outer, theory, omega, SegmentMotion(by.segments.back(), theory, omega).free().r11);
   }
@@ -51,7 +51,7 @@ JointPlane<2> Assembly::plane(int direction, Eigen::Index line) const {
 Receptance<4> Assembly::tip(Eigen::Index line) const {
   const double omega = rad_per_s_from_hz(frequency_hz[line]);
   if (couples_directions) return with_mass<4>(along_tool(line, 0, 0), tip_mass_kg, omega);
-  return in_both(axisymmetric, [&](int direction) -> Receptance<2> {
+  return uncoupled(axisymmetric, [&](int direction) -> Receptance<2> {
     if (const auto& joint = held[direction].joint) {
       return plane(direction, line).tip(joint->stiffness(omega));
     }
@@ -67,10 +67,15 @@ Receptance<4> Assembly::along_tool(Eigen::Index line, double response_m, double 
     holder.bottomRightCorner<2, 2>() += joint_receptance(held[1].joint, omega);
     return receptance_along<4>(tool, theory, omega, holder, response_m, reference_m);
   }
-  return in_both(axisymmetric, [&](int direction) -> Receptance<2> {
+  return uncoupled(axisymmetric, [&](int direction) -> Receptance<2> {
     const Receptance<2> held_by = holder(direction, line) + joint_receptance(held[direction].joint, omega);
     return receptance_along<2>(tool, theory, omega, held_by, response_m, reference_m);
   });
+}
+
+void Assembly::set_joints(const std::array<std::optional<ToolJoint>, 2>& joints) {
+  for (std::size_t d = 0; d < 2; ++d) held[d].joint = joints[d];
+  axisymmetric = axisymmetric && joints[0].value_or(ToolJoint{}) == joints[1].value_or(ToolJoint{});
 }
 
 }  // namespace stablecut::receptance

@@ -1,4 +1,5 @@
-// A tool on its holder over a band of lines: what an assembly document describes.
+// A tool, its joint and its holder over a band of lines: what an assembly document describes. README.md,
+// section 5.
 #pragma once
 
 #include <array>
@@ -9,14 +10,14 @@
 
 namespace stablecut::receptance {
 
-/// What the innermost segment of a holder stands on; without segments, what the joint does.
+/// What the innermost segment of a holder stands on, or the joint itself where the holder has no segment.
 enum class HolderEnd {
   kFixed,
-  kFree,   ///< needs a segment
-  kGiven,  ///< receptances known line by line: measured, or of modes
+  kFree,   ///< the holder needs a segment
+  kGiven,  ///< a spindle whose receptances are known line by line, by measurement or from its modes
 };
 
-/// One direction's holder and joint.
+/// Holder and joint in one direction.
 struct HeldBy {
   BeamChain segments;  ///< from the joint inwards
   HolderEnd end = HolderEnd::kFixed;
@@ -28,19 +29,23 @@ struct Assembly {
   BeamTheory theory = BeamTheory::kTimoshenko;
   BeamChain tool;                    ///< from the tip to the joint; the same in both directions
   std::array<HeldBy, 2> held;        ///< in x and in y
-  std::vector<Receptance<4>> given;  ///< [lines] of ends that are kGiven; zero for the others
-  bool couples_directions = false;   ///< given's cross blocks are not zero; then both ends are kGiven
-  double tip_mass_kg = 0;            ///< a sensor at the tip
+  std::vector<Receptance<4>> given;  ///< [lines] of the ends that are kGiven; zero for the others
+  bool couples_directions = false;   ///< the cross blocks of `given` are not zero; then both ends are kGiven
+  double tip_mass_kg = 0;            ///< an accelerometer on the tip
   bool axisymmetric = true;          ///< x and y are the same
 
-  /// What holds the tool at the joint, from within. Throws InvalidArgument for a free end without a segment.
+  /// The receptance of the holder's face in one direction. Throws InvalidArgument for a free end without a
+  /// segment.
   Receptance<2> holder(int direction, Eigen::Index line) const;
-  /// Of one direction of an assembly whose directions are not coupled.
+  /// Tool and holder cut at the joint, in one direction; only where directions are not coupled.
   JointPlane<2> plane(int direction, Eigen::Index line) const;
-  /// At the tip.
+  /// The receptance at the tip.
   Receptance<4> tip(Eigen::Index line) const;
-  /// Movement at a distance from the tip per load at another, without a mass on the tip.
+  /// Movement at one place on the tool per load at another, distances from the tip; without the tip's mass.
   Receptance<4> along_tool(Eigen::Index line, double response_m, double reference_m) const;
+
+  /// The joints in x and in y, none: rigid.
+  void set_joints(const std::array<std::optional<ToolJoint>, 2>& joints);
 };
 
 }  // namespace stablecut::receptance

@@ -1,18 +1,26 @@
-// Receptances of beams in bending: a uniform segment, free at both ends or fixed at one (Liu et al., Table 1
-// and eqs. 7 to 9, generalised to Timoshenko's beam and freed of cancellation).
+// Receptances of a uniform beam segment in bending, free at both ends or held at one: [Liu2014, Table 1 and
+// eqs. 7 to 9], extended to Timoshenko's beam [Timoshenko1921] and written so that nothing cancels.
+// README.md, sections 2 to 4.
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <complex>
 
 namespace stablecut::receptance {
 
 /// Deflection (m) and slope (rad) per force (N) and moment (N m), in one direction (N = 2: [[h, l], [n, p]])
-/// or in x and y (N = 4: w_x, slope_x, w_y, slope_y). The slope is d(deflection)/ds with s from the joint
-/// (end 2) towards the tip (end 1), a moment acts in its sense. In Timoshenko's theory the slope is the
-/// rotation of the section.
+/// or in x and y (N = 4, in the order w_x, slope_x, w_y, slope_y). The slope is d(deflection)/ds with s from
+/// the joint (end 2) towards the tip (end 1); a positive moment does work on a positive slope. In
+/// Timoshenko's theory the slope is the rotation of the cross-section.
 template <int N>
 using Receptance = Eigen::Matrix<std::complex<double>, N, N>;
+
+/// Stands in for a size of 0 that is divided by.
+inline constexpr double kAboveZero = 1e-300;
+
+/// The coordinates of a Receptance<4>, by their names in documents.
+inline constexpr std::array<const char*, 4> kCoordinates = {"x", "slope_x", "y", "slope_y"};
 
 enum class BeamTheory { kEulerBernoulli, kTimoshenko };
 
@@ -27,12 +35,13 @@ struct BeamSegment {
   double loss_factor = 0;  ///< structural damping: E and G become E (1 + i eta), G (1 + i eta)
 };
 
-/// Of a free part, in one direction: between its ends 1 (tip) and 2 (joint).
+/// A free part in one direction: movement of its end i per load at its end j (1: tip, 2: joint).
 struct BeamReceptances {
   Receptance<2> r11, r12, r21, r22;
 };
 
-/// The same in each of the N / 2 directions, which a round part does not couple.
+/// A round part has the same receptance in x and in y and does not couple them: the 2 x 2 block itself, or
+/// twice on the diagonal of a 4 x 4 matrix.
 template <int N>
 Receptance<N> in_all_directions(const Receptance<2>& one) {
   if constexpr (N == 2) {
@@ -44,11 +53,12 @@ Receptance<N> in_all_directions(const Receptance<2>& one) {
   }
 }
 
-/// Shear coefficient after Cowper of a round section or tube.
+/// Shear coefficient of a round bar or tube [Cowper1966].
 double cowper_shear_coefficient(double inner_over_outer_diameter, double poisson_ratio);
 
-/// A segment at an angular frequency above 0 (rad/s). Relative error about 1e-13 from the rigid body to many
-/// waves. Throws InvalidArgument for sizes or frequencies that are not above 0.
+/// How a segment moves at one angular frequency above 0 (rad/s). Relative error about 1e-13, from frequencies
+/// at which it moves as a rigid body to those at which it carries many waves. Throws InvalidArgument for
+/// sizes or frequencies that are not above 0.
 class SegmentMotion {
  public:
   SegmentMotion(const BeamSegment& segment, BeamTheory theory, double omega_rad_per_s);
@@ -56,19 +66,19 @@ class SegmentMotion {
   /// Free at both ends.
   BeamReceptances free() const;
 
-  /// The receptance at end 1 when end 2 is held by a part of receptance `holder` (zero: fixed). Where the
-  /// segment is short for its waves this does not pass through its own rigid body, and so does not cancel. N
-  /// is 2 or 4.
+  /// The receptance at end 1 when end 2 is held by a part of receptance `holder` (zero: fixed); N is 2 or 4.
+  /// A segment that is short compared with its waves is carried by its transfer matrix: the receptance of the
+  /// free rigid body, which grows as 1 / w^2, never enters and so need not cancel (README.md, section 4).
   template <int N>
   Receptance<N> held(const Receptance<N>& holder) const;
 
  private:
-  // What end 1 does and takes for what end 2 does and takes, where the segment is short; else how it moves
-  // free.
+  // Transfer matrix in four blocks: movement (deflection, slope) and load (force, moment) at end 1 from
+  // movement and load at end 2.
   struct Transfer {
     Receptance<2> movement_of_movement, movement_of_load, load_of_movement, load_of_load;
   };
-  bool short_;
+  bool short_;  // compared with its waves; then only transfer_ is set, else only free_
   Transfer transfer_;
   BeamReceptances free_;
 };

@@ -10,22 +10,22 @@
 namespace stablecut::receptance {
 namespace {
 
-// Outer and inner part of a chain cut at a distance from its tip; at an end one of them is empty.
+// Outer and inner part of a chain cut at a distance from its tip; cut at an end, one of them is empty.
 std::pair<BeamChain, BeamChain> cut_at(const BeamChain& chain, double distance_m) {
   std::pair<BeamChain, BeamChain> parts;
   double start = 0;
   for (const BeamSegment& segment : chain) {
-    // A remainder of rounding is no segment.
-    const double within = distance_m - start, rounding = 1e-12 * segment.length_m;
-    if (within >= segment.length_m - rounding) {
+    // A piece as short as the rounding of its end is no segment.
+    const double into = distance_m - start, rounding = kPlaceRounding * segment.length_m;
+    if (into >= segment.length_m - rounding) {
       parts.first.push_back(segment);
-    } else if (within <= rounding) {
+    } else if (into <= rounding) {
       parts.second.push_back(segment);
     } else {
       parts.first.push_back(segment);
-      parts.first.back().length_m = within;
+      parts.first.back().length_m = into;
       parts.second.push_back(segment);
-      parts.second.back().length_m = segment.length_m - within;
+      parts.second.back().length_m = segment.length_m - into;
     }
     start += segment.length_m;
   }
@@ -33,25 +33,25 @@ std::pair<BeamChain, BeamChain> cut_at(const BeamChain& chain, double distance_m
 }
 
 void check_on(const BeamChain& chain, double distance_m) {
-  double length = 0;
-  for (const BeamSegment& segment : chain) length += segment.length_m;
-  if (!(distance_m >= 0 && distance_m <= length * (1 + 1e-12))) {
+  const double length = length_of(chain);
+  if (!(distance_m >= 0 && distance_m <= length * (1 + kPlaceRounding))) {
     throw InvalidArgument("position " + number_text(1e3 * distance_m) + " mm: expected 0 to " +
                           number_text(1e3 * length) + " mm, a place on the tool");
   }
 }
 
-// Two parts that meet, one of receptance `a`, the other of `b`: both together. Also where one is fixed.
+// The point at which two parts meet, of receptances `a` and `b` there: (a^-1 + b^-1)^-1, written so that
+// either may be zero (fixed).
 template <int N>
-Receptance<N> together(const Receptance<N>& a, const Receptance<N>& b) {
+Receptance<N> meeting_point(const Receptance<N>& a, const Receptance<N>& b) {
   return a * (a + b).inverse() * b;
 }
 
-// Between two places on a chain whose inner end is met by `inner_of(part)`, the receptance of what lies
-// inwards of a cut, which starts with `part`.
+// Movement at one place of a chain per load at another. `inner_of(part)` is the receptance of the face of
+// what lies inwards of a cut: `part`, the chain's inner segments, and whatever holds them.
 template <int N, typename InnerOf>
-Receptance<N> between(const BeamChain& chain, BeamTheory theory, double omega, double response_m,
-                      double reference_m, const InnerOf& inner_of) {
+Receptance<N> between_places(const BeamChain& chain, BeamTheory theory, double omega, double response_m,
+                             double reference_m, const InnerOf& inner_of) {
   check_on(chain, response_m);
   check_on(chain, reference_m);
   const double farther = std::max(response_m, reference_m), nearer = std::min(response_m, reference_m);
@@ -59,9 +59,10 @@ Receptance<N> between(const BeamChain& chain, BeamTheory theory, double omega, d
   if (outer.empty()) return inner_of(inner);
   const BeamReceptances free = free_chain(outer, theory, omega);
   const Receptance<N> farther_free = in_all_directions<N>(free.r22);
-  const Receptance<N> at_farther = together<N>(farther_free, inner_of(inner));
+  const Receptance<N> at_farther = meeting_point<N>(farther_free, inner_of(inner));
   if (nearer == farther) return at_farther;
-  // The outer part moves its nearer place as the load at its end does that moves the end so.
+  // All that a load on the inner part does to the outer one goes through the cut: the nearer place moves as
+  // it would under the load at the outer part's end that moves this end by at_farther.
   const Receptance<2> nearer_free = free_response_to_end(outer, theory, omega, nearer);
   if (response_m < reference_m) {
     return in_all_directions<N>(nearer_free) * farther_free.inverse() * at_farther;
@@ -77,6 +78,12 @@ Receptance<N> mass_matrix(double mass_kg, double omega) {
 
 }  // namespace
 
+double length_of(const BeamChain& chain) {
+  double length = 0;
+  for (const BeamSegment& segment : chain) length += segment.length_m;
+  return length;
+}
+
 template <int N>
 Receptance<N> held_chain(const BeamChain& chain, BeamTheory theory, double omega,
                          const Receptance<N>& inner) {
@@ -89,7 +96,7 @@ BeamReceptances free_chain(const BeamChain& chain, BeamTheory theory, double ome
   if (chain.empty()) throw InvalidArgument("no segment: expected at least one");
   BeamReceptances whole = SegmentMotion(chain.front(), theory, omega).free();
   for (std::size_t i = 1; i < chain.size(); ++i) {
-    whole = joined(whole, SegmentMotion(chain[i], theory, omega).free());
+    whole = rigidly_coupled(whole, SegmentMotion(chain[i], theory, omega).free());
   }
   return whole;
 }
@@ -98,14 +105,14 @@ template <int N>
 JointPlane<N> joint_plane(const BeamChain& tool, BeamTheory theory, double omega,
                           const Receptance<N>& holder) {
   if (tool.empty()) throw InvalidArgument("no segment: expected at least one");
-  // Held and free, from the joint outwards.
+  // The tool held by the holder, and the free tool, both built from the joint outwards.
   const SegmentMotion last(tool.back(), theory, omega);
   BeamReceptances free = last.free();
   JointPlane<N> plane;
   plane.rigid_tip = last.held<N>(holder);
   for (std::size_t i = tool.size() - 1; i-- > 0;) {
     const SegmentMotion segment(tool[i], theory, omega);
-    free = joined(segment.free(), free);
+    free = rigidly_coupled(segment.free(), free);
     plane.rigid_tip = segment.held<N>(plane.rigid_tip);
   }
   plane.stiffness = (in_all_directions<N>(free.r22) + holder).inverse();
@@ -117,12 +124,12 @@ JointPlane<N> joint_plane(const BeamChain& tool, BeamTheory theory, double omega
 template <int N>
 JointPlane<N> with_tip_mass(const JointPlane<N>& plane, double mass_kg, double omega) {
   if (mass_kg == 0) return plane;
-  // The tip's load is F + M w^2 tip.
+  // The tip feels the load F + M w^2 times its own movement.
   const Receptance<N> mass = mass_matrix<N>(mass_kg, omega);
-  const Receptance<N> moves = (Receptance<N>::Identity() - plane.rigid_tip * mass).inverse();
+  const Receptance<N> factor = (Receptance<N>::Identity() - plane.rigid_tip * mass).inverse();
   JointPlane<N> result;
-  result.rigid_tip = moves * plane.rigid_tip;
-  result.of_opening = moves * plane.of_opening;
+  result.rigid_tip = factor * plane.rigid_tip;
+  result.of_opening = factor * plane.of_opening;
   result.transmitted = plane.transmitted * (Receptance<N>::Identity() + mass * result.rigid_tip);
   result.stiffness = plane.stiffness - plane.transmitted * mass * result.of_opening;
   return result;
@@ -137,8 +144,9 @@ Receptance<N> with_mass(const Receptance<N>& at, double mass_kg, double omega) {
 template <int N>
 Receptance<N> receptance_along(const BeamChain& tool, BeamTheory theory, double omega,
                                const Receptance<N>& holder, double response_m, double reference_m) {
-  return between<N>(tool, theory, omega, response_m, reference_m,
-                    [&](const BeamChain& inner) { return held_chain<N>(inner, theory, omega, holder); });
+  return between_places<N>(tool, theory, omega, response_m, reference_m, [&](const BeamChain& inner) {
+    return held_chain<N>(inner, theory, omega, holder);
+  });
 }
 
 Receptance<2> free_response_to_end(const BeamChain& tool, BeamTheory theory, double omega,
@@ -154,11 +162,11 @@ Receptance<2> free_response_to_end(const BeamChain& tool, BeamTheory theory, dou
 
 Receptance<2> free_receptance_along(const BeamChain& tool, BeamTheory theory, double omega, double response_m,
                                     double reference_m) {
-  // At the very end nothing lies inwards: the outer part is the whole.
-  const auto whole = [&](double distance_m) { return cut_at(tool, distance_m).second.empty(); };
-  if (whole(reference_m)) return free_response_to_end(tool, theory, omega, response_m);
-  if (whole(response_m)) return free_response_to_end(tool, theory, omega, reference_m).transpose();
-  return between<2>(
+  // At end 2 nothing lies inwards of the cut.
+  const auto at_end = [&](double distance_m) { return cut_at(tool, distance_m).second.empty(); };
+  if (at_end(reference_m)) return free_response_to_end(tool, theory, omega, response_m);
+  if (at_end(response_m)) return free_response_to_end(tool, theory, omega, reference_m).transpose();
+  return between_places<2>(
       tool, theory, omega, response_m, reference_m,
       [&](const BeamChain& inner) -> Receptance<2> { return free_chain(inner, theory, omega).r11; });
 }

@@ -1,4 +1,5 @@
-// A tool in its holder at one frequency: the tip, and what the joint between them does to it.
+// A stepped tool in its holder at one frequency: its tip, places along it, and how the tip depends on the
+// joint [Schmitz2005]. README.md, sections 4 to 6.
 #pragma once
 
 #include <vector>
@@ -7,24 +8,33 @@
 
 namespace stablecut::receptance {
 
-/// A part of segments in a row, outermost first, joined rigidly.
+/// Segments in a row, outermost first, joined rigidly.
 using BeamChain = std::vector<BeamSegment>;
 
-/// The chain's outer end when its inner end is held by a part of receptance `inner` (zero: fixed). An empty
-/// chain gives `inner` back. Carried from the inner end outwards: exact also where the parts are short.
-/// Throws InvalidArgument for sizes or frequencies that are not above 0, as all of these do.
+/// Places on a chain that differ by less than this share of a length are one place.
+inline constexpr double kPlaceRounding = 1e-12;
+
+/// Sum of the segments' lengths, m.
+double length_of(const BeamChain& chain);
+
+/// The receptance of the chain's outer end when its inner end is held by a part of receptance `inner` (zero:
+/// fixed), segment by segment from the inner end outwards; accurate also where segments are short. An empty
+/// chain gives `inner` back. As all functions here it throws InvalidArgument for sizes or frequencies that
+/// are not above 0.
 template <int N>
 Receptance<N> held_chain(const BeamChain& chain, BeamTheory theory, double omega_rad_per_s,
                          const Receptance<N>& inner);
 
-/// The chain free at both ends. Needs a segment.
+/// The chain free at both ends. Throws InvalidArgument for an empty chain.
 BeamReceptances free_chain(const BeamChain& chain, BeamTheory theory, double omega_rad_per_s);
 
-/// Tool and holder as their joint sees them. For a load F at the tip and an opening g of the joint,
-///   tip = rigid_tip F + of_opening g,   load through the joint = transmitted F - stiffness g,
-/// so that a joint of stiffness Kc gives the tip rigid_tip + of_opening (Kc + stiffness)^-1 transmitted. It
-/// is eq. 6 with (R22 + H + Kc^-1)^-1 split into what does not depend on the joint and what does; nothing
-/// cancels at low frequency.
+/// Tool and holder cut at the joint. Let F be a load at the tip and g the opening of the joint: deflection
+/// and slope of the tool's end less those of the holder's face. Then
+///   movement of the tip = rigid_tip F + of_opening g,
+///   load from tool to holder = transmitted F - stiffness g.
+/// A joint of dynamic stiffness Kc passes on the load Kc g, which makes the tip
+/// rigid_tip + of_opening (Kc + stiffness)^-1 transmitted: [Liu2014, eq. 6] with (R22 + H + Kc^-1)^-1 divided
+/// into what does not depend on the joint and what does (README.md, section 6).
 template <int N>
 struct JointPlane {
   Receptance<N> rigid_tip, of_opening, transmitted, stiffness;
@@ -36,31 +46,33 @@ struct JointPlane {
   }
 };
 
-/// `holder`: what holds the joint from within. Throws InvalidArgument where there is no segment.
+/// `holder`: receptance of the holder's face. Throws InvalidArgument for a tool without a segment.
 template <int N>
 JointPlane<N> joint_plane(const BeamChain& tool, BeamTheory theory, double omega_rad_per_s,
                           const Receptance<N>& holder);
 
-/// The same with a mass on the tip: a sensor.
+/// The same tool with a mass on its tip: an accelerometer.
 template <int N>
 JointPlane<N> with_tip_mass(const JointPlane<N>& plane, double mass_kg, double omega_rad_per_s);
 
-/// A mass (kg) added to a place, which a sensor does, or with a minus taken away: (G^-1 - w^2 M)^-1.
+/// The receptance at a place after a mass (kg) was added there: (G^-1 - w^2 M)^-1. A negative mass takes a
+/// sensor away [Cakar2005].
 template <int N>
 Receptance<N> with_mass(const Receptance<N>& at, double mass_kg, double omega_rad_per_s);
 
-/// Receptance between two places on a held tool, distances from the tip: movement at `response_m` per load at
-/// `reference_m`. Throws InvalidArgument for places that are not on the tool.
+/// Movement at `response_m` per load at `reference_m` on a held tool, both distances from its tip. Throws
+/// InvalidArgument for places that are not on the tool.
 template <int N>
 Receptance<N> receptance_along(const BeamChain& tool, BeamTheory theory, double omega_rad_per_s,
                                const Receptance<N>& holder, double response_m, double reference_m);
 
-/// Movement at a place on a free tool per load at its end 2. Throws InvalidArgument for places that are not
-/// on it.
+/// Movement at a place on a free tool, `response_m` from its tip, per load at its end 2. Throws
+/// InvalidArgument for places that are not on it.
 Receptance<2> free_response_to_end(const BeamChain& tool, BeamTheory theory, double omega_rad_per_s,
                                    double response_m);
 
-/// Receptance between two places on a free tool. Throws InvalidArgument for places that are not on it.
+/// Movement at `response_m` per load at `reference_m` on a free tool. Throws InvalidArgument for places that
+/// are not on it.
 Receptance<2> free_receptance_along(const BeamChain& tool, BeamTheory theory, double omega_rad_per_s,
                                     double response_m, double reference_m);
 

@@ -147,6 +147,13 @@ TEST_CASE("along the tool: the ends, reciprocity, and a load between two parts")
     CHECK(relative(free_response_to_end(tool, theory, omega, 0.03),
                    free_receptance_along(tool, theory, omega, 0.03, 0.095)) < 1e-9);
   }
+  // 0.1 + 0.2 is above 0.3 in double precision: the place is the end all the same, and no piece of 3e-17 m.
+  const BeamChain decimal = {bar(100), bar(200)};
+  const double omega = rad_per_s_from_hz(1200);
+  CHECK(relative(free_receptance_along(decimal, theory, omega, 0.3, 0),
+                 free_chain(decimal, theory, omega).r21) < 1e-12);
+  CHECK(relative(receptance_along<2>(decimal, theory, omega, some_holder(), 0.3, 0.3),
+                 receptance_along<2>(decimal, theory, omega, some_holder(), 0.1 + 0.2, 0.1 + 0.2)) < 1e-12);
   CHECK_THROWS_AS(receptance_along<2>(tool, theory, 1, Receptance<2>::Zero(), 0, 0.1), InvalidArgument);
   CHECK_THROWS_AS(receptance_along<2>(tool, theory, 1, Receptance<2>::Zero(), -1e-3, 0), InvalidArgument);
 }

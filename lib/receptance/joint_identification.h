@@ -1,5 +1,5 @@
-// The joint between tool and holder from a measured tip receptance (Liu et al., section 2, by least squares
-// in place of the genetic algorithm).
+// The joint between tool and holder from a measured tip receptance: the problem of [Liu2014, section 2], by
+// least squares with a scan of starts in place of a genetic algorithm. README.md, sections 11 to 14.
 #pragma once
 
 #include <array>
@@ -14,51 +14,67 @@ using JointValues = std::array<double, 4>;
 JointValues values_of(const ToolJoint& joint);
 ToolJoint joint_of(const JointValues& values);
 
-/// What bounds may be, in the order of JointValues.
+/// The range that bounds must keep to, in the order of JointValues.
 inline constexpr JointValues kLeastBound = {1e-20, 0, 1e-20, 0};
 inline constexpr double kLargestBound = 1e20;
 
-/// Increasing.
+/// Each bound below its counterpart.
 struct JointBounds {
   JointValues least = {1e3, 0, 1e-1, 0};
   JointValues most = {1e12, 1e7, 1e10, 1e6};
 };
 
-/// Lines without which nothing is identified.
+/// Fewer lines identify nothing.
 inline constexpr Eigen::Index kLeastJointLines = 4;
 
 enum class JointObjective {
-  kComplex,    ///< sum of |H - H_measured|^2, weighted by the noise: maximum likelihood
-  kAmplitude,  ///< sum of (|H| - |H_measured|)^2, the paper's
+  kComplex,    ///< sum of |H - H_measured|^2 / variance: maximum likelihood [Kay1993]
+  kAmplitude,  ///< sum of (|H| - |H_measured|)^2, without weights [Liu2014, section 2.2]
 };
 
-/// The tip as it was measured and as tool and holder would make it, line by line, in one direction.
+/// One direction's measured tip, and tool and holder cut at the joint, line by line.
 struct JointData {
   Eigen::VectorXd omega_rad_per_s;   ///< [lines]
   std::vector<JointPlane<2>> plane;  ///< [lines]
   Eigen::VectorXcd tip;              ///< [lines] measured, displacement per force, m/N
-  Eigen::VectorXd variance;  ///< [lines] of the complex value, both parts together; empty: unknown. A line
-                             ///< far surer than those around it is not believed
+  /// [lines] of the complex value, both parts together; empty: unknown. A variance far below those of the
+  /// lines around it is raised.
+  Eigen::VectorXd variance;
 };
 
 struct JointEstimate {
   ToolJoint joint;
-  JointValues deviation{};  ///< standard deviations; of values at a bound 0
-  /// The standard deviation is at most 30 % of the value, and would be so of the lower end of the value's 95
-  /// % interval. A value at its bound never is.
+  JointValues deviation{};  ///< standard deviations; 0 for values at a bound
+  /// The standard deviation is at most 30 % of the value, also if the value were the lower end of its 95 %
+  /// interval. Never of a value at its bound.
   std::array<bool, 4> identifiable{};
   std::array<bool, 4> at_bound{};
   double residual = 0;   ///< |H - H_measured| / |H_measured|, norms over the lines
-  double objective = 0;  ///< the square root of the objective's sum without weights, m/N
+  double objective = 0;  ///< square root of the objective's sum, without weights, m/N
 };
 
-/// The best joint within the bounds, whatever the start: the curve is linear in one stiffness when the other
-/// is given, so the other is scanned and every good pair refined.
-///
-/// An unknown noise is taken as the same on all lines, or as a share of the value where the residual says so.
-/// Residuals that hang together over lines (a model that does not fit) widen the deviations. Throws
-/// InvalidArgument for bounds that are not increasing or beyond kLeastBound and kLargestBound, and for fewer
-/// than kLeastJointLines lines, NoAnswer where no joint can be found.
+/// The best joint within the bounds; no start is needed. An unknown noise is taken as equal on all lines, or
+/// as a share of the value where that makes the residual white and likelier. Residuals that are correlated
+/// over lines, as those of a wrong model, widen the deviations. Throws InvalidArgument for bounds that are
+/// not increasing or beyond kLeastBound and kLargestBound and for fewer than kLeastJointLines lines, NoAnswer
+/// for a tip that does not move and where no joint gives a finite receptance.
 JointEstimate identify_joint(const JointData& data, const JointBounds& bounds, JointObjective objective);
+
+/// What whoever uses an estimate should know.
+struct JointFinding {
+  enum class Kind {
+    kUnexplained,      ///< no joint explains the tip; `number`: the estimate's residual
+    kNothingTold,      ///< no value is identifiable, and none lies at a bound
+    kPoorFit,          ///< `number`: the residual
+    kAtBound,          ///< `value` lies at its bound, `number`
+    kNotIdentifiable,  ///< `value`; `number`: its standard deviation over it
+  };
+  Kind kind;
+  std::size_t value = 0;  ///< index of JointValues
+  double number = 0;
+};
+
+/// In the order of the kinds, but value by value. Amplitudes are never unexplained: their phase is free.
+std::vector<JointFinding> findings_of(const JointEstimate& estimate, JointObjective objective);
 
 }  // namespace stablecut::receptance

@@ -184,6 +184,108 @@ TEST_CASE("noise as a share of the value, known or not") {
   }
 }
 
+TEST_CASE("a residual that is smooth over lines tells no more on twice the lines") {
+  // A model whose tool is 2 % too thin, without noise.
+  const ToolJoint joint{5e7, 200, 5e4, 0.5};
+  const auto deviations = [&](double step_hz) {
+    JointData data = section_3(step_hz);
+    data.tip = tip_with(data, joint);
+    BeamSegment thin = bar(118.92);
+    thin.outer_diameter_m *= 0.98;
+    for (std::size_t i = 0; i < data.plane.size(); ++i) {
+      const double omega = data.omega_rad_per_s[static_cast<Eigen::Index>(i)];
+      data.plane[i] =
+          joint_plane<2>({thin}, kTheory, omega, fixed_free_receptance(bar(50.90), kTheory, omega));
+    }
+    const JointEstimate estimate = identify_joint(data, {}, JointObjective::kComplex);
+    CHECK(estimate.residual > 0.03);
+    return estimate.deviation;
+  };
+  const JointValues on_half = deviations(4), on_all = deviations(2);
+  CHECK(on_half[2] > 0);
+  CHECK(on_all[2] == Approx(on_half[2]).epsilon(0.1));  // white noise would give 0.71
+}
+
+TEST_CASE("a stated variance is believed even where the residual is smaller") {
+  JointData data = section_3(5);
+  const ToolJoint joint{5e7, 200, 5e4, 0.5};
+  data.tip = tip_with(data, joint);
+  const double variance = 1e-4 * data.tip.squaredNorm() / static_cast<double>(data.tip.size());
+  std::array<JointEstimate, 2> estimate;
+  for (std::size_t i = 0; i < 2; ++i) {
+    data.variance = Eigen::VectorXd::Constant(data.tip.size(), (i == 0 ? 1.0 : 100.0) * variance);
+    estimate[i] = identify_joint(data, {}, JointObjective::kComplex);
+  }
+  const Eigen::Vector4d bound = cramer_rao(data, joint, std::sqrt(variance));
+  for (std::size_t i = 0; i < 4; ++i) {
+    CHECK(estimate[0].deviation[i] ==
+          Approx(bound[static_cast<Eigen::Index>(i)] * values_of(joint)[i]).epsilon(1e-3));
+    CHECK(estimate[1].deviation[i] == Approx(10 * estimate[0].deviation[i]).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("a line that claims to be exact does not outweigh its neighbours") {
+  JointData data = section_3(5);
+  const ToolJoint joint{5e7, 200, 5e4, 0.5};
+  data.tip = tip_with(data, joint);
+  const double size = data.tip.norm() / std::sqrt(static_cast<double>(data.tip.size()));
+  data.variance = Eigen::VectorXd::Constant(data.tip.size(), 1e-4 * size * size);
+  // One wrong line in a hundred, by five deviations.
+  for (Eigen::Index i = 7; i < data.tip.size(); i += 100) {
+    data.tip[i] += 0.05 * size;
+    data.variance[i] = 0;
+  }
+  const JointEstimate estimate = identify_joint(data, {}, JointObjective::kComplex);
+  CHECK(estimate.joint.k1 == Approx(joint.k1).epsilon(0.05));
+  CHECK(estimate.joint.k2 == Approx(joint.k2).epsilon(0.02));
+}
+
+TEST_CASE("below the first mode one number is measured, and no value is told") {
+  JointData data = section_3(1);
+  const Eigen::Index few = 20;
+  data.omega_rad_per_s.conservativeResize(few);
+  data.plane.resize(few);
+  const ToolJoint joint{5e7, 200, 5e4, 0.5};
+  data.tip = tip_with(data, joint);
+  // Noise that is known, but happens to be 0: the estimate is the true joint.
+  data.variance = Eigen::VectorXd::Constant(few, 1e-6 * std::norm(data.tip[0]));
+  const JointEstimate estimate = identify_joint(data, {}, JointObjective::kComplex);
+  for (std::size_t i = 0; i < 4; ++i) {
+    CHECK_FALSE(estimate.identifiable[i]);
+    CHECK(std::isfinite(estimate.deviation[i]));
+    CHECK_FALSE(estimate.at_bound[i]);
+  }
+}
+
+TEST_CASE("what an estimate says of itself: kinds and numbers") {
+  using Kind = JointFinding::Kind;
+  JointEstimate estimate;
+  estimate.joint = {1e7, 0, 2e4, 0.2};
+  estimate.deviation = {1e5, 0, 8e3, 1e-3};
+  estimate.at_bound = {false, true, false, false};
+  estimate.identifiable = {true, false, false, true};
+  const auto kinds = [&](JointObjective objective) {
+    std::vector<Kind> found;
+    for (const JointFinding& finding : findings_of(estimate, objective)) found.push_back(finding.kind);
+    return found;
+  };
+  CHECK(kinds(JointObjective::kComplex) == std::vector{Kind::kAtBound, Kind::kNotIdentifiable});
+  const auto findings = findings_of(estimate, JointObjective::kComplex);
+  CHECK(findings[0].value == 1);
+  CHECK(findings[0].number == 0);
+  CHECK(findings[1].value == 2);
+  CHECK(findings[1].number == Approx(0.4));
+  estimate.residual = 0.2;
+  CHECK(kinds(JointObjective::kComplex).front() == Kind::kPoorFit);
+  estimate.residual = 0.6;
+  CHECK(kinds(JointObjective::kComplex).front() == Kind::kUnexplained);
+  CHECK(kinds(JointObjective::kAmplitude).front() == Kind::kPoorFit);
+  // Without any value that is told or at a bound there is no answer.
+  estimate.residual = 0;
+  estimate.at_bound = estimate.identifiable = {};
+  CHECK(kinds(JointObjective::kComplex).front() == Kind::kNothingTold);
+}
+
 TEST_CASE("bounds and lines that cannot be") {
   JointData data = section_3(500);
   data.tip = tip_with(data, published_joint());

@@ -8,21 +8,21 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Lines that the scan looks at, values of a stiffness in a decade, loss tangents at the middle of the band;
-// steps of a linear solution; pairs that are solved for in turns, and turns; how many starts are left.
-constexpr Eigen::Index kScanLines = 200;
-constexpr double kPerDecade = 8;
+constexpr Eigen::Index kScanLines = 200;  // lines that the scan looks at
+constexpr double kPerDecade = 8;          // values of the scanned stiffness in a decade
+// Loss tangents c w / k of the scanned stiffness, at the middle of the band.
 constexpr std::array<double, 4> kLossTangents = {0, 0.01, 0.1, 1};
-constexpr int kLinearSteps = 2;
-constexpr std::size_t kInTurns = 40;
-constexpr int kTurns = 6;
-constexpr std::size_t kStarts = 10;
-constexpr double kSameStart = 0.2;  // distance in log stiffness
+constexpr int kLinearSteps = 2;       // least-squares solutions, each weighted by the one before
+constexpr std::size_t kInTurns = 40;  // candidates that are improved by solving in turns
+constexpr int kTurns = 6;             // turns
+constexpr std::size_t kStarts = 10;   // candidates that are returned
+constexpr double kSameStart = 0.2;    // in log stiffness: candidates nearer to each other are one
 
-// With y = H - rigid and K2 known, eq. 6 is linear in K1 = k1 + i w c1:
-//   K1 (y S2 - l2 r2) = S2 l1 r1 - l1 z12 r2 - l2 z21 r1 + z11 l2 r2 - y (z11 S2 - z12 z21),   S2 = K2 + z22.
-// Its error over the determinant is the error of the tip: the determinant of the joint before (at first the
-// one given) weighs it, and the tip of the joint before takes the place of the noisy y among the instruments.
+// K1 = k1 + i w c1 for a given K2: [Liu2014, eq. 6] solved for K1 is linear (README.md, section 12),
+//   K1 (y S2 - l2 r2) = S2 l1 r1 - l1 z12 r2 - l2 z21 r1 + z11 l2 r2 - y (z11 S2 - z12 z21),
+// where y = measured - rigid and S2 = K2 + z22. The error of this equation is the error of the tip times the
+// determinant S1 S2 - z12 z21, by which the previous solution divides it. In the second step the tip of the
+// previous solution takes the place of the noisy y in the instrument, so that noise does not bias the result.
 ToolJoint solve_first(const TipLines& lines, ToolJoint joint, double most_k1) {
   for (int step = 0; step < kLinearSteps; ++step) {
     double k_top = 0, k_bottom = 0, c_top = 0, c_bottom = 0;
@@ -36,7 +36,7 @@ ToolJoint solve_first(const TipLines& lines, ToolJoint joint, double most_k1) {
       const Complex weighted = std::conj(instrument) * (n.weight * n.weight / std::norm(determinant));
       k_top += (weighted * b).real();
       k_bottom += (weighted * a).real();
-      // The column i w a is square to a.
+      // The column of c1, i w a, is orthogonal to that of k1, a: the two are solved for apart.
       c_top += (weighted * b).imag() * n.omega;
       c_bottom += (weighted * a).real() * n.omega * n.omega;
     }
@@ -54,64 +54,88 @@ bool alike(const ToolJoint& a, const ToolJoint& b) {
   return std::abs(std::log(a.k1 / b.k1)) < kSameStart && std::abs(std::log(a.k2 / b.k2)) < kSameStart;
 }
 
+// Solves for one stiffness with the other given, and says what a joint costs.
+class StartFinder {
+ public:
+  StartFinder(const TipLines& all, const JointBounds& bounds, JointObjective objective)
+      : lines_(thinned(all, kScanLines)), bounds_(bounds), objective_(objective) {
+    for (const TipLine& line : lines_) exchanged_lines_.push_back(line.exchanged());
+  }
+
+  // One stiffness on a grid over its bounds with several dampings, the other one solved for; the solution is
+  // begun once from a soft and once from a stiff value of it.
+  std::vector<JointCandidate> scan() const {
+    const double omega = middle_omega(lines_);
+    std::vector<JointCandidate> found;
+    for (const std::size_t scanned : {0, 2}) {
+      const double least = bounds_.least[scanned];
+      const double decades = std::log10(bounds_.most[scanned] / least);
+      const int count = 2 + static_cast<int>(kPerDecade * decades);
+      for (int i = 0; i < count; ++i) {
+        const double k = least * std::pow(10, decades * i / (count - 1));
+        for (const double tangent : kLossTangents) {
+          const double c =
+              std::clamp(tangent * k / omega, bounds_.least[scanned + 1], bounds_.most[scanned + 1]);
+          for (const double other : {0.0, bounds_.most[2 - scanned]}) {
+            found.push_back(
+                judged(scanned == 0 ? second_solved({k, c, other, 0}) : first_solved({other, 0, k, c})));
+          }
+        }
+      }
+    }
+    return found;
+  }
+
+  // Both stiffnesses solved for in turns.
+  JointCandidate improved(const JointCandidate& start) const {
+    ToolJoint joint = start.joint;
+    for (int turn = 0; turn < kTurns; ++turn) joint = first_solved(second_solved(joint));
+    const JointCandidate solved = judged(joint);
+    return solved.cost < start.cost ? solved : start;
+  }
+
+ private:
+  ToolJoint first_solved(const ToolJoint& joint) const { return solve_first(lines_, joint, bounds_.most[0]); }
+  ToolJoint second_solved(const ToolJoint& joint) const {
+    return exchanged(solve_first(exchanged_lines_, exchanged(joint), bounds_.most[2]));
+  }
+  JointCandidate judged(const ToolJoint& joint) const {
+    const ToolJoint inside = clamped(joint, bounds_);
+    return {inside, cost_of(lines_, inside, objective_)};
+  }
+
+  TipLines lines_, exchanged_lines_;
+  const JointBounds& bounds_;
+  JointObjective objective_;
+};
+
 }  // namespace
 
-ToolJoint within(const ToolJoint& joint, const JointBounds& bounds) {
+ToolJoint clamped(const ToolJoint& joint, const JointBounds& bounds) {
   JointValues values = values_of(joint);
   for (std::size_t i = 0; i < 4; ++i) values[i] = std::clamp(values[i], bounds.least[i], bounds.most[i]);
   return joint_of(values);
 }
 
-std::vector<JointStart> best_of(std::vector<JointStart> all, std::size_t most) {
+std::vector<JointCandidate> best_distinct(std::vector<JointCandidate> all, std::size_t most) {
   std::stable_sort(all.begin(), all.end(),
-                   [](const JointStart& a, const JointStart& b) { return a.cost < b.cost; });
-  std::vector<JointStart> best;
-  for (const JointStart& start : all) {
+                   [](const JointCandidate& a, const JointCandidate& b) { return a.cost < b.cost; });
+  std::vector<JointCandidate> best;
+  for (const JointCandidate& candidate : all) {
     if (best.size() == most) break;
     if (std::none_of(best.begin(), best.end(),
-                     [&](const JointStart& b) { return alike(b.joint, start.joint); }))
-      best.push_back(start);
+                     [&](const JointCandidate& b) { return alike(b.joint, candidate.joint); }))
+      best.push_back(candidate);
   }
   return best;
 }
 
-std::vector<JointStart> joint_starts(const TipLines& all, const JointBounds& bounds,
-                                     JointObjective objective) {
-  const TipLines lines = thinned(all, kScanLines);
-  TipLines of_slope;
-  for (const TipLine& line : lines) of_slope.push_back(line.exchanged());
-  const double omega = middle_of(lines);
-  const auto first_solved = [&](const ToolJoint& joint) { return solve_first(lines, joint, bounds.most[0]); };
-  const auto second_solved = [&](const ToolJoint& joint) {
-    return exchanged(solve_first(of_slope, exchanged(joint), bounds.most[2]));
-  };
-  const auto judged = [&](const ToolJoint& joint) {
-    const ToolJoint inside = within(joint, bounds);
-    return JointStart{inside, cost_of(lines, inside, objective)};
-  };
-  std::vector<JointStart> found;
-  for (const std::size_t scanned : {0, 2}) {
-    const double decades = std::log10(bounds.most[scanned] / bounds.least[scanned]);
-    const int count = 2 + static_cast<int>(kPerDecade * decades);
-    for (int i = 0; i < count; ++i) {
-      const double k = bounds.least[scanned] * std::pow(10, decades * i / (count - 1));
-      for (const double tangent : kLossTangents) {
-        const double c = std::clamp(tangent * k / omega, bounds.least[scanned + 1], bounds.most[scanned + 1]);
-        for (const bool stiff : {false, true}) {
-          const double other = stiff ? bounds.most[2 - scanned] : 0;
-          found.push_back(
-              judged(scanned == 0 ? second_solved({k, c, other, 0}) : first_solved({other, 0, k, c})));
-        }
-      }
-    }
-  }
-  found = best_of(std::move(found), kInTurns);
-  for (JointStart& start : found) {
-    ToolJoint joint = start.joint;
-    for (int turn = 0; turn < kTurns; ++turn) joint = first_solved(second_solved(joint));
-    if (const JointStart solved = judged(joint); solved.cost < start.cost) start = solved;
-  }
-  return best_of(std::move(found), kStarts);
+std::vector<JointCandidate> joint_starts(const TipLines& lines, const JointBounds& bounds,
+                                         JointObjective objective) {
+  const StartFinder finder(lines, bounds, objective);
+  std::vector<JointCandidate> found = best_distinct(finder.scan(), kInTurns);
+  for (JointCandidate& start : found) start = finder.improved(start);
+  return best_distinct(std::move(found), kStarts);
 }
 
 }  // namespace stablecut::receptance

@@ -1,4 +1,4 @@
-// Where to begin a search for the joint: starts that do not miss.
+// Where to begin a search for the joint, so that the best one is not missed. README.md, section 12.
 #pragma once
 
 #include <vector>
@@ -7,21 +7,23 @@
 
 namespace stablecut::receptance {
 
-struct JointStart {
+/// A joint and its objective.
+struct JointCandidate {
   ToolJoint joint;
   double cost = 0;
 };
 
-/// Within the bounds.
-ToolJoint within(const ToolJoint& joint, const JointBounds& bounds);
+/// Each value moved to the nearer bound where it lies outside.
+ToolJoint clamped(const ToolJoint& joint, const JointBounds& bounds);
 
-/// The cheapest that differ in stiffness by a fifth or more, cheapest first; at most that many.
-std::vector<JointStart> best_of(std::vector<JointStart> all, std::size_t most);
+/// At most `most` of the candidates, cheapest first; of candidates with nearly the same k1 and k2 only the
+/// cheapest.
+std::vector<JointCandidate> best_distinct(std::vector<JointCandidate> all, std::size_t most);
 
-/// Good joints on some of the lines, best first. With y = H - rigid and K2 known, eq. 6 is linear in K1 = k1
-/// + i w c1, and the other way round: one stiffness is scanned and the other solved for; the best pairs are
-/// then solved for in turns.
-std::vector<JointStart> joint_starts(const TipLines& lines, const JointBounds& bounds,
-                                     JointObjective objective);
+/// Good joints on some of the lines, cheapest first: one stiffness is scanned over its bounds while the other
+/// is solved for, which is linear least squares [Sanathanan1963] [Soderstrom1983]; the best are then improved
+/// by solving for both in turns.
+std::vector<JointCandidate> joint_starts(const TipLines& lines, const JointBounds& bounds,
+                                         JointObjective objective);
 
 }  // namespace stablecut::receptance

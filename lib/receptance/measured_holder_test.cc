@@ -149,6 +149,12 @@ TEST_CASE("too few cross taps on an artefact are left out, too few direct ones g
   const MeasuredHolder found = measured_holder(measurement, kTheory, kLines);
   CHECK(found.cross_left_out);
   CHECK_FALSE(found.couples_directions);
+  // Three pairs across (h(0,0), h(0,S), h(S,0)) are one too few: left out, not refused.
+  measurement.frf = taps_on(expected, artefact(), 0, {{0, 0}, {0, 0.03}, {0.03, 0.03}});
+  std::erase_if(measurement.frf.entries, [](const auto& e) {
+    return e.response != e.reference && *e.response_position_m + *e.reference_position_m > 0.05;
+  });
+  CHECK(measured_holder(measurement, kTheory, kLines).cross_left_out);
   measurement.frf = taps_on(modal_holder(spindle(false), kLines), artefact(), 0, {{0, 0}, {0, 0.03}});
   const MeasuredHolder differences = measured_holder(measurement, kTheory, kLines);
   CHECK(differences.quality[0].slopes == SlopeSource::kFiniteDifference);
@@ -197,6 +203,14 @@ TEST_CASE("the finite difference: exact for a rigid holder, its noise and its en
   HolderMeasurement noisy = at_tip({{0, 0}, {0, 0.02}});
   for (auto& entry : noisy.frf.entries) entry.variance = entry.h.cwiseAbs2();
   CHECK(measured_holder(noisy, kTheory, kLines).quality[0].noisy_hz.size() ==
+        static_cast<std::size_t>(kLines.size()));
+  // The same on an artefact: none below the noise of the other tests, all in a large one.
+  HolderMeasurement along{
+      taps_on(modal_holder(spindle(false), kLines), artefact(), 0, {{0, 0}, {0, 0.03}, {0.03, 0.03}}), 0,
+      artefact()};
+  CHECK(measured_holder(along, kTheory, kLines).quality[0].noisy_hz.empty());
+  for (auto& entry : along.frf.entries) entry.variance = entry.h.cwiseAbs2();
+  CHECK(measured_holder(along, kTheory, kLines).quality[0].noisy_hz.size() ==
         static_cast<std::size_t>(kLines.size()));
   // A curve of the wrong sign gives energy away.
   HolderMeasurement wrong = at_tip({{0, 0}, {0, 0.02}});

@@ -15,23 +15,23 @@
 
 namespace stablecut::receptance {
 
-const Tap* find(const Taps& taps, int response, int reference, double response_m, double reference_m) {
+const Tap* tap_at(const Taps& taps, int response, int reference, double response_m, double reference_m) {
   const auto found = std::find_if(taps.begin(), taps.end(), [&](const Tap& tap) {
-    return tap.between(response, reference) && tap.at(response_m, reference_m);
+    return tap.is_of(response, reference) && tap.is_at(response_m, reference_m);
   });
   return found == taps.end() ? nullptr : &*found;
 }
 
-std::vector<const Tap*> taps_between(const Taps& taps, int response, int reference) {
+std::vector<const Tap*> taps_of_coordinates(const Taps& taps, int response, int reference) {
   std::vector<const Tap*> result;
   for (const Tap& tap : taps) {
-    if (tap.between(response, reference)) result.push_back(&tap);
+    if (tap.is_of(response, reference)) result.push_back(&tap);
   }
   return result;
 }
 
 Taps taps_of(const dynamics::FrequencyResponse& measured, const Eigen::VectorXd& frequency_hz) {
-  // A line at 0 Hz has no receptance when acceleration was measured, and no assembly asks for it.
+  // An acceleration at 0 Hz gives no receptance, and no assembly asks for that line.
   dynamics::FrequencyResponse frf = dynamics::to_receptance(dynamics::within_band(
       measured, std::numeric_limits<double>::min(), std::numeric_limits<double>::infinity()));
   if (frf.frequency_hz.size() == 0) throw InvalidArgument("no line above 0 Hz");
@@ -62,15 +62,15 @@ Taps taps_of(const dynamics::FrequencyResponse& measured, const Eigen::VectorXd&
 void remove_sensor(Taps& taps, double mass_kg, const Eigen::VectorXd& frequency_hz) {
   const Taps measured = taps;
   for (Tap& tap : taps) {
-    if (tap.slope())
-      throw InvalidArgument("a sensor's mass can be taken off deflections only, not off slopes");
+    if (tap.has_slope())
+      throw InvalidArgument("a sensor's mass can be taken away from deflections only, not from slopes");
     const double a = tap.response_m;
     const int other = 2 - tap.response;
     const auto curve = [&](int response, int reference, double reference_m) {
-      const Tap* found = find(measured, response, reference, a, reference_m);
+      const Tap* found = tap_at(measured, response, reference, a, reference_m);
       return found == nullptr ? Eigen::VectorXcd::Zero(tap.h.size()).eval() : found->h;
     };
-    if (find(measured, tap.response, tap.response, a, a) == nullptr) {
+    if (tap_at(measured, tap.response, tap.response, a, a) == nullptr) {
       throw InvalidArgument(std::string("the direct receptance ") + kCoordinates[tap.response] +
                             " at the sensor's place, " + number_text(1e3 * a) +
                             " mm: missing, and needed to take its mass away");
@@ -96,8 +96,8 @@ void complete_by_reciprocity(Taps& taps) {
     std::swap(mirrored.response, mirrored.reference);
     std::swap(mirrored.response_m, mirrored.reference_m);
     const bool between_directions = mirrored.response / 2 != mirrored.reference / 2;
-    if (between_directions && find(taps, mirrored.response, mirrored.reference, mirrored.response_m,
-                                   mirrored.reference_m) == nullptr)
+    if (between_directions && tap_at(taps, mirrored.response, mirrored.reference, mirrored.response_m,
+                                     mirrored.reference_m) == nullptr)
       taps.push_back(std::move(mirrored));
   }
 }

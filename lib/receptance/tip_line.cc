@@ -8,6 +8,8 @@ namespace stablecut::receptance {
 using Complex = std::complex<double>;
 
 Tip tip_of(const TipLine& n, const ToolJoint& joint) {
+  // (diag(K1, K2) + z)^-1 by cofactors; the opening of the joint per force at the tip, and the tip's
+  // deflection per load that opens it.
   const Complex s1 = n.stiffness(joint.k1, joint.c1) + n.z11, s2 = n.stiffness(joint.k2, joint.c2) + n.z22;
   const Complex inverse = 1.0 / (s1 * s2 - n.z12 * n.z21);
   const Complex open1 = (s2 * n.r1 - n.z12 * n.r2) * inverse, open2 = (s1 * n.r2 - n.z21 * n.r1) * inverse;
@@ -37,6 +39,6 @@ double cost_of(const TipLines& lines, const ToolJoint& joint, JointObjective obj
   return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
 }
 
-double middle_of(const TipLines& lines) { return std::sqrt(lines.front().omega * lines.back().omega); }
+double middle_omega(const TipLines& lines) { return std::sqrt(lines.front().omega * lines.back().omega); }
 
 }  // namespace stablecut::receptance

@@ -1,18 +1,20 @@
-// The tip of a held tool at one line, as the joint's stiffnesses make it.
+// The tip's deflection per force at one line, as a function of the joint. README.md, section 11.
 #pragma once
 
 #include <complex>
+#include <utility>
 #include <vector>
 
 #include "receptance/joint_identification.h"
 
 namespace stablecut::receptance {
 
-/// What a line's tip is made of (displacement per force), and its measured value, m/N.
+/// One line: the measured tip and what JointPlane says of it. With the joint's dynamic stiffnesses K1 and K2,
+///   tip = rigid + (l1 l2) (diag(K1, K2) + z)^-1 (r1 r2)^T.
 struct TipLine {
-  double omega;
-  std::complex<double> measured;
-  double weight;  ///< of the residual
+  double omega;                   ///< rad/s
+  std::complex<double> measured;  ///< m/N
+  double weight;                  ///< of the residual
   std::complex<double> rigid, l1, l2, r1, r2, z11, z12, z21, z22;
 
   TipLine(const JointPlane<2>& plane, double omega_rad_per_s, std::complex<double> h)
@@ -29,7 +31,7 @@ struct TipLine {
         z21(plane.stiffness(1, 0)),
         z22(plane.stiffness(1, 1)) {}
 
-  /// The same with deflection and slope of the joint in each other's places.
+  /// The same line with K1 and K2 in each other's places.
   TipLine exchanged() const {
     TipLine line = *this;
     std::swap(line.l1, line.l2);
@@ -38,28 +40,29 @@ struct TipLine {
     std::swap(line.z12, line.z21);
     return line;
   }
+  /// The dynamic stiffness k + i w c.
   std::complex<double> stiffness(double k, double c) const { return {k, omega * c}; }
 };
 
-/// The tip for joint stiffnesses K1, K2, and its derivatives in them.
+using TipLines = std::vector<TipLine>;
+
+/// The tip with a joint, and its derivatives by K1 and K2.
 struct Tip {
   std::complex<double> h, by_k1, by_k2;
 };
 Tip tip_of(const TipLine& line, const ToolJoint& joint);
 
-using TipLines = std::vector<TipLine>;
-
-/// At most that many lines, evenly spaced.
+/// Every n-th line, so that at most `most` are left.
 TipLines thinned(const TipLines& lines, Eigen::Index most);
 
-/// Geometric middle of the band, rad/s.
-double middle_of(const TipLines& lines);
+/// Geometric mean of the first and the last angular frequency, rad/s.
+double middle_omega(const TipLines& lines);
 
-/// The weighted residual of a line; an amplitude's is real. Returns its square.
+/// Sets the weighted residual of a line, real for amplitudes. Returns its square.
 double residual_of(const TipLine& line, const Tip& tip, JointObjective objective,
                    std::complex<double>& residual);
 
-/// Sum of the squares over the lines; infinite where the tip is not finite.
+/// The objective: the sum of the squares over the lines; infinite where a tip is not finite.
 double cost_of(const TipLines& lines, const ToolJoint& joint, JointObjective objective);
 
 }  // namespace stablecut::receptance

@@ -66,16 +66,17 @@ def natural_hz(length, lo, hi, side):
     return round((lo / length) ** 2 * math.sqrt(EI.real / MASS_PER_M) / (2 * math.pi))
 
 
-parts = [natural_hz(0.05090, 1.5, 2.5, -1), natural_hz(0.11892, 4, 5, 1)]
-bands = ((280, 310), (1800, 1900))
-peaks = [peak(lo, hi, lambda w: tip(w, joint)) for joint in (None, JOINT) for lo, hi in bands]
-lines = [2 * math.pi * f for f in range(1, 5001)]
-objective = math.sqrt(sum((abs(tip(w, JOINT)) - abs(tip(w, None))) ** 2 for w in lines))
-print("stub, bar:", parts, " rigidly joined:", peaks[:2], " with the joint:", peaks[2:])
-print(f"objective: {objective:.6g}")
-cantilever = fixed_free(0.16982, lines[999])[0][0]
-off = abs(tip(lines[999], None) / cantilever - 1)
-print(f"rigid joint against one cantilever, 1000 Hz: relative difference {off:.1e}")
-stands_in("lib/receptance/receptance_test.cc", f"{parts[0]} Hz of the stub, {parts[1]} Hz of the bar",
-          f"{peaks[0]} and {peaks[1]} Hz of both", *(f"Approx({f})" for f in parts + peaks),
-          f"Approx({objective:.3g})".replace("e-05", "e-5"))
+if __name__ == "__main__":
+    parts = [natural_hz(0.05090, 1.5, 2.5, -1), natural_hz(0.11892, 4, 5, 1)]
+    bands = ((280, 310), (1800, 1900))
+    peaks = [peak(lo, hi, lambda w: tip(w, joint)) for joint in (None, JOINT) for lo, hi in bands]
+    lines = [2 * math.pi * f for f in range(1, 5001)]
+    objective = math.sqrt(sum((abs(tip(w, JOINT)) - abs(tip(w, None))) ** 2 for w in lines))
+    print("stub, bar:", parts, " rigidly joined:", peaks[:2], " with the joint:", peaks[2:])
+    print(f"objective: {objective:.6g}")
+    cantilever = fixed_free(0.16982, lines[999])[0][0]
+    off = abs(tip(lines[999], None) / cantilever - 1)
+    print(f"rigid joint against one cantilever, 1000 Hz: relative difference {off:.1e}")
+    stands_in("lib/receptance/receptance_test.cc", f"{parts[0]} Hz of the stub, {parts[1]} Hz of the bar",
+              f"{peaks[0]} and {peaks[1]} Hz of both", *(f"Approx({f})" for f in parts + peaks),
+              f"Approx({objective:.3g})".replace("e-05", "e-5"))

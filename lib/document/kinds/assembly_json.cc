@@ -22,7 +22,7 @@ constexpr Bound kPoisson{.least = 0, .most = 0.5, .words = "Poisson's ratio, fro
 constexpr Bound kLossFactor{.least = 0, .most = 1, .words = "a loss factor from 0 to 1"};
 constexpr Bound kPosition{.least = 0, .words = "a distance from the tip, not below 0 mm"};
 constexpr int kMostFlutes = 40;
-constexpr double kFlutedDiameter = 0.8;  // of the cutter's, for bending (Kops and Vo, 1990)
+constexpr double kFlutedDiameter = 0.8;  // equivalent diameter over the cutter's, for bending [Kops1990]
 constexpr Bound kSize{.least = 0, .most = 1e6, .open_least = true, .words = "a size above 0 mm"};
 
 using Materials = std::map<std::string, receptance::BeamSegment>;  // segments without sizes
@@ -62,7 +62,7 @@ Materials materials_from(const Node& node) {
   return materials;
 }
 
-// A fluted length bends, and weighs, about as a round bar of its equivalent diameter.
+// A fluted length bends, and weighs, about as a round bar of its equivalent diameter [Kops1990].
 void take_flutes(const Node& item, receptance::BeamSegment& segment) {
   const auto flutes = item.find("flutes"), equivalent = item.find("equivalent_diameter_mm");
   if (flutes) flutes->integer(1, kMostFlutes);
@@ -103,7 +103,7 @@ receptance::BeamChain segments_from(const Node& node, const Materials& materials
 
 // ---- documents inside ----
 
-// A document of a file or one that stands here.
+// A document and where it begins: in a file of its own, or inside the assembly document.
 struct Found {
   Input input;
   std::string pointer;
@@ -114,7 +114,7 @@ Found document_at(const Node& node, const DocumentLoader& load) {
   return {{node.source(), node.json()}, node.pointer()};
 }
 
-// One item of `receptances`: a document, or a file of a measurement with places for its entries.
+// One item of `receptances`: a frequency response document, or a measured file and the places of its entries.
 dynamics::FrequencyResponse responses_of(const Node& node, const DocumentLoader& load,
                                          std::vector<Remark>& remarks) {
   const Found found = document_at(node, load);
@@ -149,14 +149,15 @@ dynamics::FrequencyResponse receptances_from(const Node& node, const DocumentLoa
   dynamics::FrequencyResponse all = responses_of(items[0], load, remarks);
   for (std::size_t i = 1; i < items.size(); ++i) {
     dynamics::FrequencyResponse more = responses_of(items[i], load, remarks);
-    if (more.quantity != all.quantity) items[i].fail("expected the quantity of the first of the list");
+    if (more.quantity != all.quantity)
+      items[i].fail("expected the same quantity as in the first item of the list");
     if (!dynamics::same_values(more.frequency_hz, all.frequency_hz))
-      items[i].fail("expected the lines of the first of the list");
+      items[i].fail("expected the same lines as in the first item of the list");
     for (auto& entry : more.entries) {
       for (const auto& other : all.entries) {
         if (!other.same_places(entry)) continue;
-        items[i].fail("has " + entry.response + entry.reference +
-                      " at places that the list has already: expected each once");
+        items[i].fail(entry.response + entry.reference +
+                      " at these places is in the list already: expected each entry once");
       }
       all.entries.push_back(std::move(entry));
     }
@@ -165,11 +166,6 @@ dynamics::FrequencyResponse receptances_from(const Node& node, const DocumentLoa
 }
 
 // ---- holder and joint ----
-
-std::string list_of_lines(const std::vector<double>& lines, std::size_t all) {
-  return std::to_string(lines.size()) + " of " + std::to_string(all) + " lines (" +
-         number_text(lines.front()) + " to " + number_text(lines.back()) + " Hz)";
-}
 
 class AssemblyReader {
  public:
@@ -224,11 +220,12 @@ class AssemblyReader {
     std::optional<Node> given;
     if (node.has("modal_table") || node.has("receptances")) {
       forbid(node, {"segments", "end"},
-             "expected segments with an end that holds modal_table or receptances, or these alone");
+             "expected either segments and an end, which may hold modal_table or receptances, or one of "
+             "these alone");
       given = node;
     } else {
       node.check_names({"segments", "end", "modal_table", "receptances"});
-      forbid(node, {"sensor_mass_g", "artefact"}, "expected this beside receptances");
+      forbid(node, {"sensor_mass_g", "artefact"}, "expected only beside receptances");
       held.segments = segments_from(node.at("segments"), materials_);
       const Node end = node.at("end");
       if (end.json().is_object()) {
@@ -250,7 +247,7 @@ class AssemblyReader {
     const Node content = node.at(modal ? "modal_table" : "receptances");
     if (modal && node.has("receptances"))
       node.at("receptances").fail("expected modal_table or receptances, not both");
-    if (modal) forbid(node, {"sensor_mass_g", "artefact"}, "expected this beside receptances");
+    if (modal) forbid(node, {"sensor_mass_g", "artefact"}, "expected only beside receptances");
     const receptance::MeasuredHolder holder = modal ? of_modes(content) : of_taps(node, content);
     auto& given = assembly_.given;
     if (given.empty()) given.assign(holder.receptance.size(), receptance::Receptance<4>::Zero());
@@ -259,8 +256,7 @@ class AssemblyReader {
       int from = d;
       if (!holder.quality[d].measured) {
         from = 1 - d;
-        document_.warnings.push_back(
-            place(content) + (d == 0 ? "xx is missing: x is taken as y" : "yy is missing: y is taken as x"));
+        document_.findings.push_back({HolderFinding::Kind::kTakenFromOther, place(content), d, {}, 0});
       } else if (x && y && d == 1 && holder.quality[0].measured) {
         assembly_.axisymmetric = false;
       }
@@ -272,7 +268,7 @@ class AssemblyReader {
       assembly_.couples_directions = true;
       given = holder.receptance;
     }
-    if (!modal) say_limits(content, holder, {x, y});
+    if (!modal) find_limits(content, holder, {x, y});
   }
 
   receptance::MeasuredHolder of_modes(const Node& content) {
@@ -301,37 +297,19 @@ class AssemblyReader {
     }
   }
 
-  static std::string place(const Node& content) {
-    return content.source().name + ": " + content.pointer() + ": ";
-  }
+  static std::string place(const Node& content) { return content.source().name + ": " + content.pointer(); }
 
-  // One line for each direction that deserves one.
-  void say_limits(const Node& content, const receptance::MeasuredHolder& holder,
-                  const std::array<bool, 2>& used) {
+  // What the user should know of the directions that were measured and are used.
+  void find_limits(const Node& content, const receptance::MeasuredHolder& holder,
+                   const std::array<bool, 2>& used) {
     const std::size_t lines = holder.receptance.size();
-    for (std::size_t d = 0; d < 2; ++d) {
+    for (int d = 0; d < 2; ++d) {
       const receptance::HolderQuality& quality = holder.quality[d];
-      if (!quality.measured || !(used[d] || !holder.quality[1 - d].measured)) continue;
-      std::string text;
-      const auto add = [&](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
-      if (quality.slopes == receptance::SlopeSource::kFiniteDifference) {
-        add("slopes by a finite difference over " + number_text(mm_from_metres(quality.spacing_m)) +
-            " mm, good where the part bends little over it" +
-            (quality.second_difference ? "" : ", and moments to slopes as l n / h, exact for one mode only"));
-      }
-      if (!quality.noisy_hz.empty())
-        add("slopes below three deviations of their noise on " + list_of_lines(quality.noisy_hz, lines));
-      if (!quality.unphysical_hz.empty())
-        add("more than 5 % of it gives energy away (not passive) on " +
-            list_of_lines(quality.unphysical_hz, lines));
-      if (!text.empty()) document_.warnings.push_back(place(content) + (d == 0 ? "x: " : "y: ") + text);
+      if (!quality.measured || !quality.limited() || !(used[d] || !holder.quality[1 - d].measured)) continue;
+      document_.findings.push_back({HolderFinding::Kind::kLimits, place(content), d, quality, lines});
     }
-    if (holder.cross_left_out) {
-      document_.warnings.push_back(
-          place(content) +
-          "xy and yx are left out: expected both directions, and slopes or places for the entries "
-          "between them too (four pairs along an artefact)");
-    }
+    if (holder.cross_left_out)
+      document_.findings.push_back({HolderFinding::Kind::kCrossLeftOut, place(content), 0, {}, lines});
   }
 
   const Node& root_;

@@ -1,0 +1,81 @@
+#include "words.h"
+
+#include <vector>
+
+#include "base/number_text.h"
+#include "base/units.h"
+#include "option_values.h"
+
+namespace stablecut {
+namespace {
+
+// `12 of 400 lines (100 to 155 Hz)`.
+std::string list_of_lines(const std::vector<double>& lines_hz, std::size_t all) {
+  return std::to_string(lines_hz.size()) + " of " + std::to_string(all) + " lines (" +
+         number_text(lines_hz.front()) + " to " + number_text(lines_hz.back()) + " Hz)";
+}
+
+std::string limits_text(const receptance::HolderQuality& quality, std::size_t lines) {
+  std::string text;
+  const auto add = [&](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
+  if (quality.slopes == receptance::SlopeSource::kFiniteDifference) {
+    add("slopes by a finite difference over " + number_text(mm_from_metres(quality.spacing_m)) +
+        " mm, good where the part bends little between the two places" +
+        (quality.second_difference ? "" : ", and slopes per moment as l n / h, exact for one mode only"));
+  }
+  if (!quality.noisy_hz.empty())
+    add("the deflection per moment lies below three standard deviations of its noise on " +
+        list_of_lines(quality.noisy_hz, lines));
+  if (!quality.unphysical_hz.empty())
+    add("not passive on " + list_of_lines(quality.unphysical_hz, lines) +
+        ": it would give energy to whatever loads it, by more than 5 % of its receptance");
+  return text;
+}
+
+}  // namespace
+
+std::string words_of(const document::HolderFinding& finding) {
+  const std::string direction = finding.direction == 0 ? "x" : "y";
+  const std::string other = finding.direction == 0 ? "y" : "x";
+  switch (finding.kind) {
+    case document::HolderFinding::Kind::kTakenFromOther:
+      return finding.place + ": " + direction + direction + " is missing: " + direction + " is taken as " +
+             other;
+    case document::HolderFinding::Kind::kLimits:
+      return finding.place + ": " + direction + ": " + limits_text(finding.quality, finding.lines);
+    case document::HolderFinding::Kind::kCrossLeftOut:
+      return finding.place +
+             ": xy and yx are left out: they are used where xx and yy were measured, too, and xy or yx has "
+             "slopes, a second place or, along an artefact, four pairs of places";
+  }
+  return "";
+}
+
+bool is_failure(const receptance::JointFinding& finding) {
+  return finding.kind == receptance::JointFinding::Kind::kUnexplained ||
+         finding.kind == receptance::JointFinding::Kind::kNothingTold;
+}
+
+std::string words_of(const receptance::JointFinding& finding, const std::string& direction,
+                     const std::string& tap) {
+  using Kind = receptance::JointFinding::Kind;
+  const std::string name = direction + ": " + kJointNames[finding.value];
+  switch (finding.kind) {
+    case Kind::kUnexplained:
+      return direction + ": the best joint leaves " + percent_text(finding.number) +
+             " of the measured tip, " + tap + ", unexplained: are tool, holder and units right?";
+    case Kind::kNothingTold:
+      return direction + ": the measured tip, " + tap + ", does not determine any of the joint's values";
+    case Kind::kPoorFit:
+      return direction + ": the best joint leaves " + percent_text(finding.number) +
+             " of the measured tip unexplained";
+    case Kind::kAtBound:
+      return name + " lies at its bound, " + number_text(finding.number);
+    case Kind::kNotIdentifiable:
+      return name + " is not identifiable: its standard deviation is " + percent_text(finding.number) +
+             " of its value";
+  }
+  return "";
+}
+
+}  // namespace stablecut
