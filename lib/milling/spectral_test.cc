@@ -1,5 +1,7 @@
 #include "milling/spectral.h"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -224,6 +226,35 @@ TEST_CASE("process damping of four teeth in a slot is viscous damping of the str
     CHECK(spectral_radius(SpectralMap(stiffer, cutter, speed, 90), depth) == Approx(damped).epsilon(1e-9));
     CHECK(spectral_radius(SpectralMap(structure, cutter, speed, 90), depth) > damped + 0.01);
   }
+}
+
+// The same with modes as they are measured, whose velocities jump with the force: f = -c r' with
+// r' = V q + D f closes a loop q' = L q + B f that does not change with time, but for a hardly cutting
+// cutter.
+TEST_CASE("process damping of measured modes includes the velocity that a force causes at once") {
+  const TipStructure structure = tip_structure(fixtures::coupled_modes(3, 9));
+  Cutter cutter = fixtures::benchmark_cutter(true, 1, 4);
+  cutter.kt_n_per_m2 = 1;
+  cutter.kr_n_per_m2 = 0;
+  cutter.diameter_m = 0.02;
+  cutter.damping_n_per_m = 2e5;
+  const double depth = 0.5e-3, speed = 40, c = depth * 2e5 / (kPi * 0.02 * speed);
+  const Eigen::Index n = structure.modes();
+  const Eigen::MatrixXcd velocity = structure.psi_r * structure.lambda.asDiagonal();
+  Eigen::MatrixXd v(2, 2 * n), l = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  v << 2 * velocity.real(), -2 * velocity.imag();
+  for (Eigen::Index k = 0; k < n; ++k) {
+    l(k, k) = l(n + k, n + k) = structure.lambda[k].real();
+    l(n + k, k) = structure.lambda[k].imag();
+    l(k, n + k) = -structure.lambda[k].imag();
+  }
+  const Eigen::Matrix2d d = 2 * (structure.psi_r * structure.psi_l.transpose()).real();
+  const Eigen::Matrix2d loop = Eigen::Matrix2d::Identity() + c * d;
+  const Eigen::MatrixXd closed = l - c * structure.state_rate_of_force() * loop.inverse() * v;
+  const double growth = Eigen::EigenSolver<Eigen::MatrixXd>(closed, false).eigenvalues().real().maxCoeff();
+  const double radius = spectral_radius(SpectralMap(structure, cutter, speed, 40), depth);
+  CHECK(radius == Approx(std::exp(growth * cutter.tooth_period_s(speed))).epsilon(1e-9));
+  CHECK(c * d.norm() > 0.01);
 }
 
 // Pitches of 70 and 110 degrees and a cut that starts at 90: lengths of pieces that should be equal differ by
