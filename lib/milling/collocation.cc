@@ -95,14 +95,14 @@ class Builder {
   // Which row each displacement is compared with: that of the same node of the piece that cut the surface.
   void link_surfaces() {
     for (std::size_t p = 0; p < pieces_.size(); ++p) {
-      const PlacedPiece &piece = pieces_[p], &before = pieces_[schedule_.pieces[p].left_by];
+      const PlacedPiece &piece = pieces_[p], &before = pieces_[schedule_.pieces[p].cut_by];
       if (before.end_node - before.first_node != piece.end_node - piece.first_node)
         throw InvalidArgument("a piece of the cut and the one that cut its surface differ in length");
       for (Eigen::Index r = piece.first_row; r < piece.end_row; ++r) {
         SensedRow& row = result_.rows[r];
         if (row.is_velocity) continue;
         row.cut_by = before.first_row + r - piece.first_row;
-        if (schedule_.pieces[p].left_before) row.remembered = result_.remembered_count++;
+        if (schedule_.pieces[p].in_period_before) row.remembered = result_.remembered_count++;
       }
     }
   }

@@ -12,28 +12,29 @@
 
 namespace stablecut::milling {
 
-/// A depth at which a cut becomes unstable or stable again.
+/// A depth at which the spectral radius passes 1.
 struct StabilityBoundary {
   double depth_m = 0;
   bool unstable_above = true;
-  std::complex<double> multiplier;  ///< that leaves the unit circle there, to some digits
+  std::complex<double> multiplier;  ///< the one on the unit circle there, to some digits
 };
 
 class DepthScan {
  public:
-  /// Errors of the interpolation that are good enough for a chart, and where only limits are wanted (a
-  /// crossing is corrected with the map itself), of max(1, radius).
+  /// Tolerances of the interpolation, of max(1, radius): for a grid of radii, and where only limits are
+  /// wanted, which are corrected with the map itself.
   static constexpr double kExact = 2e-7, kForLimits = 1e-4;
 
-  /// Depths (0, largest_depth_m], largest_depth_m > 0. The map must outlive the scan.
+  /// Follows the multipliers over the depths from 0 to `largest_depth_m` > 0. The map must outlive the scan.
   DepthScan(const PeriodMap& map, double largest_depth_m, double tolerance = kExact);
 
-  /// The spectral radius, of one tooth's pass, at each depth in [0, largest_depth_m], to the tolerance beside
-  /// the map's own error.
+  /// The spectral radius for one tooth at each depth in [0, largest_depth_m]: that of the map, to the
+  /// tolerance.
   std::vector<double> spectral_radii(const std::vector<double>& depths_m) const;
 
-  /// Every boundary of stability, increasing, to 1e-9 of the largest depth or the accuracy of the map. Two
-  /// that are closer than some thousandth of the largest depth may be missed.
+  /// Every boundary of stability, by depth, to 1e-9 of the largest depth or the map's accuracy. Two that are
+  /// closer than some thousandth of the largest depth may be missed, and one below the first node of a panel
+  /// from depth 0 that stays unresolved.
   std::vector<StabilityBoundary> boundaries() const;
 
  private:

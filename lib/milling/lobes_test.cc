@@ -40,7 +40,7 @@ constexpr auto kFlip = Instability::kFlip;
 
 }  // namespace
 
-// The two tables of an independent code, computed for this project.
+// Both tables are confirmed by scripts/derive/one_mode_limits.py, which shares no method with the library.
 TEST_CASE("limit depths of the one-mode slot") {
   check_limits(tip_structure(fixtures::oscillator({"x"})), fixtures::benchmark_cutter(false, 1),
                {{5000, .40863, kHopf},

@@ -20,10 +20,11 @@ namespace {
 constexpr double kLeastOfMean = 0.01, kMostDamping = 0.99;
 constexpr double kLow = 0.025, kHigh = 0.975;  // quantiles
 
-// A root of a covariance: deviations are root * z with z normal. Negative eigenvalues are rounding.
+// A matrix R with R R^T the covariance, so that R z has it when z is standard normal. Negative eigenvalues
+// are rounding.
 Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance) {
   if (covariance.size() == 0) return covariance;
-  // In units of the deviations: frequencies and vectors differ by many powers of ten.
+  // Of the correlations: frequencies and mode vectors differ by many powers of ten.
   const Eigen::VectorXd scale = covariance.diagonal().cwiseMax(0).cwiseSqrt();
   const Eigen::VectorXd inverse = (scale.array() > 0).select(scale.cwiseInverse(), 0.0);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(inverse.asDiagonal() * covariance *
@@ -32,7 +33,7 @@ Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance) {
          solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 
-// The model with its parameters moved, in the order of a covariance.
+// The model with a change added to its parameters, in the order of its covariance.
 dynamics::ModalModel moved(dynamics::ModalModel model, const Eigen::VectorXd& by) {
   Eigen::Index at = 0;
   for (dynamics::Mode& mode : model.modes) {
