@@ -10,18 +10,19 @@
 namespace stablecut::milling {
 namespace {
 
-// Breakpoints closer than this are one: entry and exit fall on each other when a whole number of pitches is
-// in cut, as in slotting with an even number of teeth.
+// Ends of pieces closer than this are one: an entry and an exit fall together when a whole number of pitches
+// is in cut, as in slotting with an even number of teeth. Radians.
 constexpr double kSameAngle = 1e-12;
 
-// Of force to displacement: cutting coefficients, or process damping's in their place.
+// Kt and Kr, N/m2; or those of process damping in their place, N s/m2.
 struct ForceCoefficients {
   double tangential, radial;
 };
 
-// (6-8) for one tooth, from s c, s^2 and c^2 (s = sin phi, c = cos phi), turned by the feed angle. Values or
-// integrals of the three alike.
-Eigen::Matrix2d combine(const Cutter& cutter, const ForceCoefficients& k, double sc, double ss, double cc) {
+// [RobotMillingThesis, eq. 6-8] for one tooth, turned by the feed angle, from s c, s^2 and c^2 (s = sin phi,
+// c = cos phi): their values at an angle, or their integrals.
+Eigen::Matrix2d directional_matrix(const Cutter& cutter, const ForceCoefficients& k, double sc, double ss,
+                                   double cc) {
   Eigen::Matrix2d a;
   a << -k.tangential * sc - k.radial * ss, -k.tangential * cc - k.radial * sc,  //
       k.tangential * ss - k.radial * sc, k.tangential * sc - k.radial * cc;
@@ -30,19 +31,20 @@ Eigen::Matrix2d combine(const Cutter& cutter, const ForceCoefficients& k, double
   return feed.toRotationMatrix() * a * feed.toRotationMatrix().transpose();
 }
 
-// The integral of one tooth's coefficients over the angles `width` around `middle`.
-Eigen::Matrix2d integral(const Cutter& cutter, const ForceCoefficients& k, double middle, double width) {
+// The integral of one tooth's matrix over the angles from middle - width / 2 to middle + width / 2.
+Eigen::Matrix2d integrated_matrix(const Cutter& cutter, const ForceCoefficients& k, double middle,
+                                  double width) {
   const double sine = std::sin(width);
   const double turn = sine * std::cos(2 * middle) / 2;
-  return combine(cutter, k, sine * std::sin(2 * middle) / 2, width / 2 - turn, width / 2 + turn);
+  return directional_matrix(cutter, k, sine * std::sin(2 * middle) / 2, width / 2 - turn, width / 2 + turn);
 }
 
-// Of teeth whose tips are at these angles, edges lagging by `lag_rad` at their upper end: the mean over
-// depth.
-DirectionalFactors factors(const Cutter& cutter, const ForceCoefficients& k,
-                           const std::vector<double>& angles, double lag_rad) {
+// The coefficients of teeth whose tips are at these angles, and whose edges lag by `lag_rad` at the top of
+// the cut: the mean over the depth.
+DirectionalFactors directional_factors(const Cutter& cutter, const ForceCoefficients& k,
+                                       const std::vector<double>& angles, double lag_rad) {
   if (angles.size() == 1 && lag_rad == 0) {
-    // (6-2) and (6-4): h = s x + c y, and the force of a chip of that thickness.
+    // [RobotMillingThesis, eqs. 6-2 and 6-4]: the chip thickness h = s x + c y, and the force of a chip.
     const double s = std::sin(angles[0]), c = std::cos(angles[0]);
     const Eigen::Matrix2d feed = Eigen::Rotation2Dd(cutter.feed_angle_rad).toRotationMatrix();
     const Eigen::Vector2d force(-c * k.tangential - s * k.radial, s * k.tangential - c * k.radial);
@@ -52,21 +54,22 @@ DirectionalFactors factors(const Cutter& cutter, const ForceCoefficients& k,
   for (const double phi : angles) {
     if (lag_rad == 0) {
       const double s = std::sin(phi), c = std::cos(phi);
-      sum += combine(cutter, k, s * c, s * s, c * c);
+      sum += directional_matrix(cutter, k, s * c, s * s, c * c);
       continue;
     }
-    // What of the edge is in cut; all of it is as long as the lag, which the ends' difference may not hold.
+    // The part of the edge that is in cut. The whole edge is the lag exactly, which the ends' difference,
+    // rounded, is not.
     const double low = std::max(cutter.entry_rad, std::min(phi, phi - lag_rad));
     const double high = std::min(cutter.exit_rad, std::max(phi, phi - lag_rad));
     const bool whole = low != cutter.entry_rad && high != cutter.exit_rad;
     if (low < high)
-      sum +=
-          integral(cutter, k, (low + high) / 2, whole ? std::abs(lag_rad) : high - low) / std::abs(lag_rad);
+      sum += integrated_matrix(cutter, k, (low + high) / 2, whole ? std::abs(lag_rad) : high - low) /
+             std::abs(lag_rad);
   }
   return {sum, Eigen::Matrix2d::Identity()};
 }
 
-// Increasing, each once.
+// Sorted, and each once.
 std::vector<double> distinct(std::vector<double> angles) {
   std::sort(angles.begin(), angles.end());
   angles.erase(
@@ -76,17 +79,17 @@ std::vector<double> distinct(std::vector<double> angles) {
 }
 
 // An angle in [0, period), and 0 where it is just below the period.
-double within(double angle, double period) {
+double wrapped(double angle, double period) {
   const double phase = angle - period * std::floor(angle / period);
   return period - phase < kSameAngle ? 0.0 : phase;
 }
 
-// A cut at one depth and speed.
+// The teeth's way through the cut at one depth and speed.
 struct Pass {
   const Cutter& cutter;
-  double lag_rad;                  // at the upper end of the cut
-  double first_rad, last_rad;      // tip angles between which some of the tooth is in cut
-  std::vector<double> events_rad;  // tip angles at which an end of the edge enters or leaves
+  double lag_rad;                  // at the top of the cut
+  double first_rad, last_rad;      // tip angles between which a part of the tooth is in cut
+  std::vector<double> events_rad;  // tip angles at which the tip or the top enters or leaves
   ForceCoefficients cutting, damping;
 
   Pass(const Cutter& of, double revolutions_per_s, double depth_m)
@@ -103,14 +106,14 @@ struct Pass {
     }
   }
 
-  // A piece in which the teeth are those at the turn plus these angles.
+  // A piece on which teeth are in cut whose tips are at the turn plus these angles.
   CutPiece piece(double from, double to, const std::vector<double>& teeth) const {
     CutPiece piece{from, to, {}, {}, 0, true};
     const auto coefficients = [cutter = cutter, teeth, lag = lag_rad](const ForceCoefficients& k) {
       return [=](double turn) {
         std::vector<double> angles = teeth;
         for (double& angle : angles) angle += turn;
-        return factors(cutter, k, angles, lag);
+        return directional_factors(cutter, k, angles, lag);
       };
     };
     piece.cutting = coefficients(cutting);
@@ -122,7 +125,7 @@ struct Pass {
 CutSchedule schedule_of_equal_pitch(const Pass& pass) {
   const double pitch = pass.cutter.mean_pitch_rad();
   std::vector<double> ends;
-  for (const double event : pass.events_rad) ends.push_back(within(event, pitch));
+  for (const double event : pass.events_rad) ends.push_back(wrapped(event, pitch));
   ends = distinct(ends);
   const double start = ends.front();
   ends.push_back(start + pitch);
@@ -135,7 +138,7 @@ CutSchedule schedule_of_equal_pitch(const Pass& pass) {
       teeth.push_back(start + j * pitch);
     if (teeth.empty()) continue;
     CutPiece piece = pass.piece(ends[i] - start, ends[i + 1] - start, teeth);
-    piece.left_by = schedule.pieces.size();
+    piece.cut_by = schedule.pieces.size();
     schedule.pieces.push_back(std::move(piece));
   }
   return schedule;
@@ -144,11 +147,11 @@ CutSchedule schedule_of_equal_pitch(const Pass& pass) {
 CutSchedule schedule_of_unequal_pitch(const Pass& pass) {
   const std::vector<double>& pitch = pass.cutter.pitch_rad;
   const std::size_t teeth = pitch.size();
-  std::vector<double> behind = {0};  // of each tooth, after the first
+  std::vector<double> behind = {0};  // angle of each tooth behind the first
   for (std::size_t j = 0; j + 1 < teeth; ++j) behind.push_back(behind.back() + pitch[j]);
 
-  // Tip angles at which a tooth or any other has an event: the same for all teeth, so that what one tooth
-  // left is known at the next one's nodes.
+  // Tip angles at which this tooth or any other enters or leaves. The pieces of all teeth end at the same tip
+  // angles, so that each has a piece of the tooth before that cut its surface.
   std::vector<double> ends = pass.events_rad;
   const auto turns = static_cast<int>((pass.last_rad - pass.first_rad) / kTwoPi) + 1;
   for (const double own : behind) {
@@ -163,16 +166,16 @@ CutSchedule schedule_of_unequal_pitch(const Pass& pass) {
   }
   ends = distinct(ends);
 
-  // In the order of teeth, their pieces in order; the period starts where the first tooth does.
+  // Tooth by tooth; the period starts where the first tooth enters.
   CutSchedule schedule{kTwoPi, static_cast<int>(teeth), {}};
   const std::size_t own = ends.size() - 1;
   for (std::size_t j = 0; j < teeth; ++j) {
     const std::size_t before = (j + teeth - 1) % teeth;
     for (std::size_t b = 0; b < own; ++b) {
-      const double from = within(ends[b] + behind[j] - pass.first_rad, kTwoPi);
+      const double from = wrapped(ends[b] + behind[j] - pass.first_rad, kTwoPi);
       CutPiece piece = pass.piece(from, from + ends[b + 1] - ends[b], {ends[b] - from});
-      piece.left_by = before * own + b;
-      piece.left_before = from - pitch[before] < -kSameAngle;
+      piece.cut_by = before * own + b;
+      piece.in_period_before = from - pitch[before] < -kSameAngle;
       schedule.pieces.push_back(std::move(piece));
     }
   }
@@ -206,7 +209,7 @@ Eigen::Matrix2d mean_directional_coefficients(const Cutter& cutter, double from_
   for (int tooth = first; tooth <= last; ++tooth) {
     const double a = std::max(cutter.entry_rad, from_rad + tooth * pitch);
     const double b = std::min(cutter.exit_rad, to_rad + tooth * pitch);
-    if (a < b) sum += integral(cutter, {cutter.kt_n_per_m2, cutter.kr_n_per_m2}, (a + b) / 2, b - a);
+    if (a < b) sum += integrated_matrix(cutter, {cutter.kt_n_per_m2, cutter.kr_n_per_m2}, (a + b) / 2, b - a);
   }
   return sum / (to_rad - from_rad);
 }

@@ -79,9 +79,9 @@ TEST_CASE("the pieces hold all that is cut, whatever the pitch and the helix") {
         CHECK(schedule.passes == teeth);
         CHECK((integrated(schedule) - mean * kTwoPi).norm() < 1e-11 * teeth * mean.norm());
         for (const CutPiece& piece : schedule.pieces) {
-          const CutPiece& before = schedule.pieces[piece.left_by];
+          const CutPiece& before = schedule.pieces[piece.cut_by];
           CHECK(before.to_rad - before.from_rad == Approx(piece.to_rad - piece.from_rad));
-          CHECK((before.from_rad > piece.from_rad || teeth == 1) == piece.left_before);
+          CHECK((before.from_rad > piece.from_rad || teeth == 1) == piece.in_period_before);
           CHECK(piece.to_rad < kTwoPi + 1e-9);
         }
       }

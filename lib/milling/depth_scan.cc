@@ -13,122 +13,45 @@ namespace stablecut::milling {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr Eigen::Index kNodes = DepthScan::kNodes;
 using Coefficients = numerics::ChebyshevSeries<kNodes>;
 
-// Branches that come closer to the largest modulus than this share could be the largest.
+// A track that no branch follows must stay this share of the largest modulus below it, or the panel is not
+// resolved.
 constexpr double kRivalGap = 0.1;
 static_assert(kRivalGap < 1 - numerics::kLeading);
 // A branch below the largest modulus may be wrong by this share of the distance.
 constexpr double kShareOfGap = 0.03;
-// Panel widths, of the largest depth.
+// The last coefficient but one counts as this share of itself in a branch's error: one that is small by
+// chance must not hide the other.
+constexpr double kSecondLast = 0.1;
+// Panel widths, of the largest depth. The least ones are those of unresolved panels: near the limit, and
+// where the radius is far from 1.
 constexpr double kFirstWidth = 1.0 / 8, kLeastWidth = 1.0 / 512, kLeastFarWidth = 1.0 / 16;
-constexpr double kMostGrowth = 1.7, kLeastShrink = 0.25, kUnjoinedShrink = 0.4;
-// A pair whose members are closer than this share of their size has lost digits to the square root.
+// A rest of the depths up to this many widths is one panel.
+constexpr double kLastPanel = 1.25;
+// The next width, of the one that should give the wanted error; how much it may change; and after panels
+// whose tracks could not be grouped, or that stay unresolved.
+constexpr double kSafety = 0.8, kMostGrowth = 1.7, kLeastShrink = 0.25, kMostShrink = 0.7;
+constexpr double kUnjoinedShrink = 0.4, kUnresolvedGrowth = 1.5;
+// A pair whose real members are closer than this share of their size has lost digits to the square root.
 constexpr double kMeeting = 0.02;
-// A value farther from what is expected than this share of the largest is another multiplier's.
-constexpr double kFarthest = 0.2;
-constexpr int kSamples = 32;  // of a panel, when boundaries are looked for
-constexpr double kDepthTolerance = 1e-9;
+constexpr int kSamples = 32;              // of a panel, when boundaries are looked for
+constexpr double kDepthTolerance = 1e-9;  // of the largest depth, of a boundary
+constexpr int kMostBisections = 100;      // iterations for a boundary
+constexpr int kBisectEvery = 4;           // iterations, instead of a secant step
+constexpr double kCorrectionStep = 1e-3;  // of the panel, for the slope at a boundary
 constexpr int kGoldenSteps = 40;
 
-double node_place(Eigen::Index i) { return numerics::chebyshev_node(i, kNodes); }
-
-// What the last coefficients say of the rest.
+// What the last coefficients say of those that were left out.
 double tail(const Coefficients& c) {
-  return std::max(std::abs(c[kNodes - 1]), 0.1 * std::abs(c[kNodes - 2]));
-}
-
-// One multiplier through the nodes from `first` on, all real or all complex (above the real axis).
-struct Track {
-  bool real;
-  Eigen::Index first;
-  std::vector<Complex> values;
-
-  Eigen::Index end() const { return first + static_cast<Eigen::Index>(values.size()); }
-};
-
-// Values at the next node from those at the last few: weights of the polynomial through them, [nodes before].
-constexpr Eigen::Index kRemembered = 4;
-using Weights = std::array<double, kRemembered>;  // the first for the last node, and so on backwards
-
-Weights extrapolation(Eigen::Index next, Eigen::Index count) {
-  Weights weights{};
-  for (Eigen::Index i = 0; i < count; ++i) {
-    double weight = 1;
-    for (Eigen::Index j = 0; j < count; ++j) {
-      if (j != i)
-        weight *= (node_place(next) - node_place(next - 1 - j)) /
-                  (node_place(next - 1 - i) - node_place(next - 1 - j));
-    }
-    weights[i] = weight;
-  }
-  return weights;
-}
-
-// [next node][values at hand - 1]
-const std::array<std::array<Weights, kRemembered>, kNodes>& extrapolations() {
-  static const auto all = [] {
-    std::array<std::array<Weights, kRemembered>, kNodes> table{};
-    for (Eigen::Index next = 1; next < kNodes; ++next) {
-      for (Eigen::Index count = 1; count <= std::min(kRemembered, next); ++count)
-        table[next][count - 1] = extrapolation(next, count);
-    }
-    return table;
-  }();
-  return all;
-}
-
-Complex expected(const Track& track) {
-  const std::size_t count = std::min<std::size_t>(kRemembered, track.values.size());
-  const Weights& weights = extrapolations()[track.end()][count - 1];
-  Complex sum = 0;
-  for (std::size_t i = 0; i < count; ++i) sum += weights[i] * track.values[track.values.size() - 1 - i];
-  return sum;
-}
-
-// Joins the values of the nodes, nearest to what is expected first.
-std::vector<Track> joined(const std::array<std::vector<Complex>, kNodes>& at_node) {
-  std::vector<Track> tracks;
-  for (Eigen::Index i = 0; i < kNodes; ++i) {
-    const std::vector<Complex>& values = at_node[i];
-    struct Match {
-      double distance;  // squared
-      std::size_t track, value;
-    };
-    std::vector<Match> matches;
-    double farthest = 0;
-    for (const Complex& value : values)
-      farthest = std::max(farthest, kFarthest * kFarthest * std::norm(value));
-    for (std::size_t t = 0; t < tracks.size(); ++t) {
-      if (tracks[t].end() != i) continue;
-      const Complex place = expected(tracks[t]);
-      for (std::size_t v = 0; v < values.size(); ++v) {
-        const double distance = std::norm(values[v] - place);
-        if (distance <= farthest && tracks[t].real == (values[v].imag() == 0))
-          matches.push_back({distance, t, v});
-      }
-    }
-    std::sort(matches.begin(), matches.end(),
-              [](const Match& a, const Match& b) { return a.distance < b.distance; });
-    std::vector<bool> taken(values.size(), false);
-    for (const Match& match : matches) {
-      if (tracks[match.track].end() != i || taken[match.value]) continue;
-      taken[match.value] = true;
-      tracks[match.track].values.push_back(values[match.value]);
-    }
-    for (std::size_t v = 0; v < values.size(); ++v) {
-      if (!taken[v]) tracks.push_back({values[v].imag() == 0, i, {values[v]}});
-    }
-  }
-  return tracks;
+  return std::max(std::abs(c[kNodes - 1]), kSecondLast * std::abs(c[kNodes - 2]));
 }
 
 }  // namespace
 
 double DepthScan::Branch::radius(double x) const {
   const double s = numerics::chebyshev_value<kNodes>(sum, x);
-  if (!pair) return std::abs(s);
+  if (!is_pair) return std::abs(s);
   const double p = numerics::chebyshev_value<kNodes>(product, x);
   const double discriminant = s * s / 4 - p;
   if (discriminant <= 0) return std::sqrt(p);
@@ -142,32 +65,32 @@ DepthScan::DepthScan(const PeriodMap& map, double largest_depth_m, double tolera
   while (from < largest_depth_m) {
     Panel panel;
     panel.from_m = from;
-    // No sliver at the end.
-    panel.to_m = from + 1.25 * width >= largest_depth_m ? largest_depth_m : from + width;
+    panel.to_m = from + kLastPanel * width >= largest_depth_m ? largest_depth_m : from + width;
     const double error = resolve(panel);
     panel.resolved = error <= tolerance_;
     width = panel.to_m - from;
-    const double wanted = 0.8 * std::pow(tolerance_ / std::max(error, 1e-30), 1.0 / (kNodes - 1));
+    const double wanted = kSafety * std::pow(tolerance_ / std::max(error, std::numeric_limits<double>::min()),
+                                             1.0 / (kNodes - 1));
     if (!panel.resolved) {
       const auto [low, high] = std::minmax_element(panel.radius.begin(), panel.radius.end());
       const double spread = *high - *low;
       const bool far = *low - spread > 1 || *high + spread < 1;
       if (width > (far ? kLeastFarWidth : kLeastWidth) * largest_depth_m) {
-        width *= std::isfinite(error) ? std::clamp(wanted, kLeastShrink, 0.7) : kUnjoinedShrink;
+        width *= std::isfinite(error) ? std::clamp(wanted, kLeastShrink, kMostShrink) : kUnjoinedShrink;
         continue;
       }
     }
     from = panel.to_m;
-    width *= panel.resolved ? std::clamp(wanted, kLeastShrink, kMostGrowth) : 1.5;
+    width *= panel.resolved ? std::clamp(wanted, kLeastShrink, kMostGrowth) : kUnresolvedGrowth;
     panels_.push_back(std::move(panel));
   }
 }
 
-// Computes the nodes and joins them; the error of the branches that matter, infinite where they cannot be
-// joined.
-double DepthScan::resolve(Panel& panel) const {
+// The leading multipliers at the panel's nodes, those with imaginary parts not below zero.
+std::array<std::vector<Complex>, kNodes> DepthScan::sample(Panel& panel) const {
   for (Eigen::Index i = 0; i < kNodes; ++i) {
-    panel.depth_m[i] = panel.from_m + (1 + node_place(i)) / 2 * (panel.to_m - panel.from_m);
+    const double share = (1 + numerics::chebyshev_node(i, kNodes)) / 2;
+    panel.depth_m[i] = panel.from_m + share * (panel.to_m - panel.from_m);
   }
   const std::vector<Eigen::VectorXcd> multipliers =
       leading_multipliers(map_, {panel.depth_m.begin(), panel.depth_m.end()});
@@ -180,69 +103,56 @@ double DepthScan::resolve(Panel& panel) const {
         leading[i].push_back(value);
     }
   }
+  return leading;
+}
 
-  const std::vector<Track> tracks = joined(leading);
-  // How far a track stays below the largest modulus, of that.
-  const auto gap = [&](const Track& track) {
-    double least = 1;
-    for (Eigen::Index i = track.first; i < track.end(); ++i) {
-      const double modulus = std::sqrt(std::norm(track.values[i - track.first]));
-      least = std::min(least, 1 - modulus / panel.radius[i]);
+// How far a track stays below the largest modulus, as a share of it.
+double DepthScan::Panel::gap_of(const Track& track) const {
+  double least = 1;
+  for (Eigen::Index i = track.first; i < track.end(); ++i)
+    least = std::min(least, 1 - std::sqrt(std::norm(track.at(i))) / radius[i]);
+  return least;
+}
+
+// The smooth functions of a group of tracks. A complex track stands for itself and its conjugate; of three
+// tracks the two real ones are the pair where the complex one is not.
+DepthScan::Branch DepthScan::branch_of(const TrackGroup& group, const std::vector<Track>& tracks) {
+  const Track& track = tracks[group.front()];
+  Coefficients sums, products;
+  for (Eigen::Index i = 0; i < kNodes; ++i) {
+    if (i >= track.first && i < track.end()) {
+      const Complex value = track.at(i);
+      sums[i] = track.is_real ? value.real() : 2 * value.real();
+      products[i] = std::norm(value);
+    } else {
+      const double one = tracks[group[1]].at(i).real(), other = tracks[group[2]].at(i).real();
+      sums[i] = one + other;
+      products[i] = one * other;
     }
-    return least;
-  };
+  }
   static const Eigen::Matrix<double, kNodes, kNodes> transform = numerics::chebyshev_transform<kNodes>();
+  Branch branch{!track.is_real, transform * sums, Coefficients::Zero()};
+  if (branch.is_pair) branch.product = transform * products;
+  return branch;
+}
+
+// Fills in a panel: its nodes and their branches. The error of the branches that matter, of max(1, radius);
+// infinite where a track that may be the largest is in no group.
+double DepthScan::resolve(Panel& panel) const {
+  const std::vector<Track> tracks = join_tracks(sample(panel));
+  const GroupedTracks grouped = group_tracks(tracks);
   const double size = std::max(1.0, *std::min_element(panel.radius.begin(), panel.radius.end()));
   double error = 0;
-  const auto add = [&](bool pair, const Coefficients& sums, const Coefficients& products, double below) {
-    Branch branch{pair, transform * sums, Coefficients::Zero()};
-    if (pair) branch.product = transform * products;
-    const double own = std::max(tail(branch.sum), pair ? tail(branch.product) / size : 0) / size;
-    if (own > kShareOfGap * below) error = std::max(error, own);
+  for (const TrackGroup& group : grouped.groups) {
+    const Branch branch = branch_of(group, tracks);
+    double gap = 1;
+    for (const std::size_t member : group) gap = std::min(gap, panel.gap_of(tracks[member]));
+    const double own = std::max(tail(branch.sum), branch.is_pair ? tail(branch.product) / size : 0) / size;
+    if (own > kShareOfGap * gap) error = std::max(error, own);
     panel.branches.push_back(branch);
-  };
-  // What ends or begins inside: a pair that meets on the real axis, or it cannot be followed.
-  std::vector<bool> used(tracks.size(), false);
-  for (std::size_t t = 0; t < tracks.size(); ++t) {
-    const Track& track = tracks[t];
-    if (track.values.size() == kNodes) {
-      used[t] = true;
-      Coefficients sums, products;
-      for (Eigen::Index i = 0; i < kNodes; ++i) {
-        const Complex value = track.values[i];
-        sums[i] = track.real ? value.real() : 2 * value.real();
-        products[i] = std::norm(value);
-      }
-      add(!track.real, sums, products, gap(track));
-      continue;
-    }
-    if (track.real) continue;
-    std::vector<std::size_t> partners;
-    for (std::size_t r = 0; r < tracks.size(); ++r) {
-      const bool fits = track.first == 0 ? tracks[r].first == track.end() && tracks[r].end() == kNodes
-                                         : tracks[r].first == 0 && tracks[r].end() == track.first;
-      if (tracks[r].real && !used[r] && fits && tracks[r].values.size() < kNodes) partners.push_back(r);
-    }
-    if (partners.size() != 2 || (track.first != 0 && track.end() != kNodes)) continue;
-    used[t] = used[partners[0]] = used[partners[1]] = true;
-    Coefficients sums, products;
-    for (Eigen::Index i = 0; i < kNodes; ++i) {
-      if (i >= track.first && i < track.end()) {
-        const Complex value = track.values[i - track.first];
-        sums[i] = 2 * value.real();
-        products[i] = std::norm(value);
-      } else {
-        const auto real_at = [&](std::size_t partner) {
-          return tracks[partner].values[i - tracks[partner].first].real();
-        };
-        sums[i] = real_at(partners[0]) + real_at(partners[1]);
-        products[i] = real_at(partners[0]) * real_at(partners[1]);
-      }
-    }
-    add(true, sums, products, std::min({gap(track), gap(tracks[partners[0]]), gap(tracks[partners[1]])}));
   }
-  for (std::size_t t = 0; t < tracks.size(); ++t) {
-    if (!used[t] && gap(tracks[t]) < kRivalGap) return std::numeric_limits<double>::infinity();
+  for (const std::size_t track : grouped.loose) {
+    if (panel.gap_of(tracks[track]) < kRivalGap) return std::numeric_limits<double>::infinity();
   }
   return error;
 }
@@ -295,16 +205,18 @@ double DepthScan::excess(double depth) const {
   return (value ? *value : std::abs(largest_multiplier(depth))) - 1;
 }
 
-// Where the excess changes sign: bisection with secant steps (Illinois), then a step with the map itself.
+// Where the excess changes sign: secant steps by the Illinois rule [Dowell1971] with bisections in between,
+// then one Newton step with the map itself.
 StabilityBoundary DepthScan::boundary_between(double stable_m, double unstable_m) const {
   double stable = stable_m, unstable = unstable_m;
   double stable_excess = excess(stable), unstable_excess = excess(unstable);
   const double tolerance = kDepthTolerance * largest_depth_m_;
   int last_side = 0;
-  for (int iteration = 0; iteration < 100 && std::abs(unstable - stable) > tolerance; ++iteration) {
+  for (int iteration = 0; iteration < kMostBisections && std::abs(unstable - stable) > tolerance;
+       ++iteration) {
     double middle = (stable * unstable_excess - unstable * stable_excess) / (unstable_excess - stable_excess);
     const bool inside = std::min(stable, unstable) < middle && middle < std::max(stable, unstable);
-    if (iteration % 4 == 3 || !inside) middle = (stable + unstable) / 2;
+    if (iteration % kBisectEvery == kBisectEvery - 1 || !inside) middle = (stable + unstable) / 2;
     const double value = excess(middle);
     if (value > 0) {
       unstable = middle;
@@ -320,7 +232,7 @@ StabilityBoundary DepthScan::boundary_between(double stable_m, double unstable_m
   }
   StabilityBoundary boundary{unstable, stable_m < unstable_m, largest_multiplier(unstable)};
   const Panel& panel = panel_at(unstable);
-  const double step = 1e-3 * (panel.to_m - panel.from_m);
+  const double step = kCorrectionStep * (panel.to_m - panel.from_m);
   const auto low = panel.interpolated(unstable - step), high = panel.interpolated(unstable + step);
   if (!low || !high) return boundary;
   const double correction = -(std::abs(boundary.multiplier) - 1) * 2 * step / (*high - *low);
@@ -328,8 +240,8 @@ StabilityBoundary DepthScan::boundary_between(double stable_m, double unstable_m
   return boundary;
 }
 
-// The highest (sign 1) or lowest (sign -1) excess between two depths, or the first found beyond zero (golden
-// section).
+// The highest (sign 1) or lowest (sign -1) excess between two depths, or the first one found on the other
+// side of zero.
 DepthScan::Sample DepthScan::climb(double from, double to, double sign) const {
   const auto sample = [&](double depth) { return Sample{depth, excess(depth)}; };
   return numerics::golden_section(
@@ -339,40 +251,50 @@ DepthScan::Sample DepthScan::climb(double from, double to, double sign) const {
       [&](const Sample& s) { return sign * s.excess > 0; });
 }
 
-std::vector<StabilityBoundary> DepthScan::boundaries() const {
-  std::vector<Sample> samples;
+// Depths at which the excess is known before boundaries are looked for, increasing.
+std::vector<DepthScan::Sample> DepthScan::samples() const {
+  std::vector<Sample> result;
   for (const Panel& panel : panels_) {
     if (panel.resolved) {
       for (int i = panels_.front().from_m == panel.from_m ? 0 : 1; i <= kSamples; ++i) {
         const double depth = panel.from_m + (panel.to_m - panel.from_m) * i / kSamples;
-        samples.push_back({depth, excess(depth)});
+        result.push_back({depth, excess(depth)});
       }
     } else {
-      for (std::size_t i = 0; i < kNodes; ++i) samples.push_back({panel.depth_m[i], panel.radius[i] - 1});
+      for (std::size_t i = 0; i < kNodes; ++i) result.push_back({panel.depth_m[i], panel.radius[i] - 1});
     }
   }
+  return result;
+}
+
+// Whether the excess may pass zero twice around a sample on one side of zero with both its neighbours,
+// without any of the three showing it: the sample is the nearest to zero, and as far as the three bend, it is
+// not too far from it.
+bool DepthScan::may_hide_crossings(const Sample& before, const Sample& top, const Sample& after) {
+  const double sign = top.excess > 0 ? -1 : 1;
+  const bool one_side = sign * top.excess <= 0 && (before.excess > 0) == (top.excess > 0) &&
+                        (after.excess > 0) == (top.excess > 0);
+  const bool nearest = sign * (top.excess - before.excess) >= 0 && sign * (top.excess - after.excess) >= 0;
+  const double bend = sign * (2 * top.excess - before.excess - after.excess);
+  return one_side && nearest && sign * top.excess + bend > 0;
+}
+
+std::vector<StabilityBoundary> DepthScan::boundaries() const {
+  const std::vector<Sample> known = samples();
   std::vector<StabilityBoundary> result;
   const auto cross = [&](const Sample& a, const Sample& b) {
     if ((a.excess > 0) == (b.excess > 0)) return;
     result.push_back(b.excess > 0 ? boundary_between(a.depth, b.depth) : boundary_between(b.depth, a.depth));
   };
-  for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
-    // A hump that only shows between the samples: from its highest one on, when the rise may reach zero.
-    if (i > 0) {
-      const Sample &before = samples[i - 1], &top = samples[i], &after = samples[i + 1];
-      const double sign = top.excess > 0 ? -1 : 1;
-      const double rise = sign * (2 * top.excess - before.excess - after.excess);
-      if (sign * top.excess <= 0 && sign * (top.excess - before.excess) >= 0 &&
-          sign * (top.excess - after.excess) >= 0 && (before.excess > 0) == (top.excess > 0) &&
-          (after.excess > 0) == (top.excess > 0) && sign * top.excess + rise > 0) {
-        const Sample summit = climb(before.depth, after.depth, sign);
-        if ((summit.excess > 0) != (top.excess > 0)) {
-          cross(before, summit);
-          cross(summit, after);
-        }
+  for (std::size_t i = 0; i + 1 < known.size(); ++i) {
+    if (i > 0 && may_hide_crossings(known[i - 1], known[i], known[i + 1])) {
+      const Sample summit = climb(known[i - 1].depth, known[i + 1].depth, known[i].excess > 0 ? -1 : 1);
+      if ((summit.excess > 0) != (known[i].excess > 0)) {
+        cross(known[i - 1], summit);
+        cross(summit, known[i + 1]);
       }
     }
-    cross(samples[i], samples[i + 1]);
+    cross(known[i], known[i + 1]);
   }
   std::sort(result.begin(), result.end(),
             [](const StabilityBoundary& a, const StabilityBoundary& b) { return a.depth_m < b.depth_m; });

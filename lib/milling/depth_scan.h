@@ -1,10 +1,4 @@
-// The leading multipliers of one speed as functions of the axial depth.
-//
-// Multipliers are analytic in the depth but where two of them meet. The depths are divided into panels; in
-// each, the leading multipliers at eight Chebyshev nodes are joined to branches, and a branch is a polynomial
-// whose last coefficients say how exact it is. Where a panel does not resolve them it is made shorter, so
-// that a wrong join cannot pass: it is not smooth. Two branches that meet on the real axis and part as a
-// complex pair are followed by their sum and product, which stay smooth.
+// The leading multipliers of one speed as functions of the axial depth. README.md, "The depth scan".
 #pragma once
 
 #include <Eigen/Core>
@@ -14,42 +8,42 @@
 #include <vector>
 
 #include "milling/floquet.h"
+#include "milling/tracks.h"
 
 namespace stablecut::milling {
 
-/// A depth at which a cut becomes unstable or stable again.
+/// A depth at which the spectral radius passes 1.
 struct StabilityBoundary {
   double depth_m = 0;
   bool unstable_above = true;
-  std::complex<double> multiplier;  ///< that leaves the unit circle there, to some digits
+  std::complex<double> multiplier;  ///< the one on the unit circle there, to some digits
 };
 
 class DepthScan {
  public:
-  static constexpr Eigen::Index kNodes = 8;  ///< as many as the eigenvalue solver takes side by side
-
-  /// Errors of the interpolation that are good enough for a chart, and where only limits are wanted (a
-  /// crossing is corrected with the map itself), of max(1, radius).
+  /// Tolerances of the interpolation, of max(1, radius): for a grid of radii, and where only limits are
+  /// wanted, which are corrected with the map itself.
   static constexpr double kExact = 2e-7, kForLimits = 1e-4;
 
-  /// Depths (0, largest_depth_m], largest_depth_m > 0. The map must outlive the scan.
+  /// Follows the multipliers over the depths from 0 to `largest_depth_m` > 0. The map must outlive the scan.
   DepthScan(const PeriodMap& map, double largest_depth_m, double tolerance = kExact);
 
-  /// The spectral radius, of one tooth's pass, at each depth in [0, largest_depth_m], to the tolerance beside
-  /// the map's own error.
+  /// The spectral radius for one tooth at each depth in [0, largest_depth_m]: that of the map, to the
+  /// tolerance.
   std::vector<double> spectral_radii(const std::vector<double>& depths_m) const;
 
-  /// Every boundary of stability, increasing, to 1e-9 of the largest depth or the accuracy of the map. Two
-  /// that are closer than some thousandth of the largest depth may be missed.
+  /// Every boundary of stability, by depth, to 1e-9 of the largest depth or the map's accuracy. Two that are
+  /// closer than some thousandth of the largest depth may be missed, and one below the first node of a panel
+  /// from depth 0 that stays unresolved.
   std::vector<StabilityBoundary> boundaries() const;
 
  private:
-  // A multiplier (or a pair of them that may be real or complex, then sum and product) in Chebyshev
-  // polynomials over its panel.
+  // One real multiplier, as its `sum`; or two that are both real or a complex pair, as sum and product: in
+  // Chebyshev polynomials over the panel.
   struct Branch {
-    bool pair;
-    Eigen::Matrix<double, kNodes, 1> sum, product;  // a single real multiplier is its `sum`
-    // NaN where a pair is too near to meeting.
+    bool is_pair;
+    Eigen::Matrix<double, kNodes, 1> sum, product;
+    // The largest modulus at x in [-1, 1]; NaN where a pair is too near to meeting.
     double radius(double x) const;
   };
   struct Panel {
@@ -59,6 +53,8 @@ class DepthScan {
     std::vector<Branch> branches;
 
     double place(double depth) const { return (2 * depth - from_m - to_m) / (to_m - from_m); }
+    double gap_of(const Track& track) const;
+    // None where the panel is not resolved, or a pair is too near to meeting.
     std::optional<double> interpolated(double depth) const;
   };
 
@@ -67,9 +63,13 @@ class DepthScan {
   };
 
   double resolve(Panel& panel) const;
+  std::array<std::vector<std::complex<double>>, kNodes> sample(Panel& panel) const;
+  static Branch branch_of(const TrackGroup& group, const std::vector<Track>& tracks);
   const Panel& panel_at(double depth) const;
   std::complex<double> largest_multiplier(double depth) const;
   double excess(double depth) const;
+  std::vector<Sample> samples() const;
+  static bool may_hide_crossings(const Sample& before, const Sample& top, const Sample& after);
   Sample climb(double from, double to, double sign) const;
   StabilityBoundary boundary_between(double stable_m, double unstable_m) const;
 

@@ -1,6 +1,7 @@
 #include "milling/depth_scan.h"
 
 #include <catch2/catch.hpp>
+#include <functional>
 
 #include "base/range.h"
 #include "milling/milling_fixtures_test.h"
@@ -36,7 +37,81 @@ std::size_t check_against_direct(const PeriodMap& map, double largest_depth_m, i
   return boundaries.size();
 }
 
+// A map whose leading multipliers are known: the roots of z^2 - sum(a) z + product(a), a the depth.
+class KnownMap : public PeriodMap {
+ public:
+  using Function = std::function<double(double)>;
+  KnownMap(Function sum, Function product)
+      : PeriodMap(one_mode(), 1, 1), sum_(std::move(sum)), product_(std::move(product)) {}
+
+  Eigen::MatrixXd monodromy(double depth_m) const override {
+    Eigen::MatrixXd companion(2, 2);
+    companion << sum_(depth_m), -product_(depth_m), 1, 0;
+    return companion;
+  }
+  std::vector<ForceImpulse> forces(double, std::complex<double>, const Eigen::VectorXcd&) const override {
+    return {};
+  }
+  double radius(double depth_m) const {
+    const std::complex<double> half = sum_(depth_m) / 2;
+    const std::complex<double> root = std::sqrt(half * half - product_(depth_m));
+    return std::max(std::abs(half + root), std::abs(half - root));
+  }
+
+ private:
+  static const TipStructure& one_mode() {
+    static const TipStructure structure = tip_structure(fixtures::oscillator({"x"}));
+    return structure;
+  }
+  Function sum_, product_;
+};
+
+// The known multiplier, and one of 0.1 beside it.
+KnownMap alone(const KnownMap::Function& multiplier) {
+  return {[=](double a) { return multiplier(a) + 0.1; }, [=](double a) { return 0.1 * multiplier(a); }};
+}
+
 }  // namespace
+
+TEST_CASE("an island narrower than the distance of the samples is found, and one that ends below 1 is none") {
+  // 1 + rise - (a - middle)^2 is above 1 within sqrt(rise) of the middle: a ten-thousandth of the depths. In
+  // a panel a sample is some hundredth of them from the next.
+  const double rise = 1e-8, half_width = 1e-4;
+  for (const double sign : {1.0, -1.0}) {
+    for (double middle = 0.153; middle < 1; middle += 0.107) {
+      const auto map = [&](double top) {
+        return alone([=](double a) { return 1 + sign * (top - (a - middle) * (a - middle)); });
+      };
+      INFO("middle " << middle << ", sign " << sign);
+      const KnownMap island = map(rise), none = map(-rise);
+      const auto boundaries = DepthScan(island, 1).boundaries();
+      REQUIRE(boundaries.size() == 2);
+      CHECK(boundaries[0].depth_m == Approx(middle - half_width).margin(2e-8));
+      CHECK(boundaries[1].depth_m == Approx(middle + half_width).margin(2e-8));
+      CHECK(boundaries[0].unstable_above == (sign > 0));
+      CHECK(boundaries[1].unstable_above == (sign < 0));
+      CHECK(DepthScan(none, 1).boundaries().empty());
+    }
+  }
+}
+
+TEST_CASE("multipliers that meet on the real axis are followed through the meeting") {
+  // (z + 0.8 + a / 3)^2 = (a - 0.47) / 20: a complex pair up to 0.47, then two real ones; or the other way.
+  for (const double side : {1.0, -1.0}) {
+    const KnownMap map([](double a) { return -2 * (0.8 + a / 3); },
+                       [=](double a) { return (0.8 + a / 3) * (0.8 + a / 3) - side * (a - 0.47) / 20; });
+    const DepthScan scan(map, 1);
+    const std::vector<double> depths = Range{0, 1, 1001}.values(), radii = scan.spectral_radii(depths);
+    double change = 0;
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+      CHECK(std::abs(radii[i] - map.radius(depths[i])) < 2e-7 * std::max(1.0, radii[i]));
+      if (i > 0 && (radii[i] > 1) != (radii[i - 1] > 1)) change = depths[i];
+    }
+    REQUIRE(scan.boundaries().size() == 1);
+    CHECK(scan.boundaries()[0].depth_m == Approx(change).margin(1e-3));
+    CHECK(map.radius(scan.boundaries()[0].depth_m) == Approx(1).margin(1e-8));
+  }
+}
 
 TEST_CASE("the multipliers' branches agree with every depth computed by itself") {
   std::size_t boundaries = 0;

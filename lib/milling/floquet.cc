@@ -14,26 +14,38 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// A real multiplier's imaginary part is zero but for rounding.
+// A multiplier whose imaginary part is below this share of its modulus is real.
 constexpr double kRealMultiplier = 1e-7;
 
+// Harmonics of the force that chatter is looked for in: to kHarmonicReach times the highest mode, but no more
+// than kMostHarmonics to either side.
+constexpr double kHarmonicReach = 1.2;
 constexpr double kMostHarmonics = 20000;
+// Amplitudes closer than this share are equal: a real multiplier has k and its mirror image, and the first
+// one stands for both.
+constexpr double kSameAmplitude = 1e-9;
 
-// Rows of a map, in states of the structure, from which on a reduction that stops early beats the eigenvalues
-// of several maps side by side.
+// Maps of at least kLongCut times the rows of the structure's state, and of more than kSmallMap rows, are
+// solved one by one by a reduction that stops early; the others side by side in vector lanes. README.md,
+// "Multipliers".
 constexpr double kLongCut = 4;
-constexpr Eigen::Index kSmallMap = 28;  // rows up to which it never does
+constexpr Eigen::Index kSmallMap = 28;
 
-// An eigenvalue with its vector from one nearby: inverse iteration from a start without preference, and then
-// with the Rayleigh quotient.
+// Inverse iteration: factorizations, and solutions with each. The shift lies beside the eigenvalue by this
+// share of it, so that the factorization is not singular.
+constexpr int kFactorizations = 2, kSolutions = 3;
+constexpr double kShiftOffset = 1e-10;
+
+// An eigenvalue with its vector from a value nearby: inverse iteration [Ipsen1997] from a vector of ones,
+// then again from the Rayleigh quotient.
 std::pair<Complex, Eigen::VectorXcd> eigenpair(const Eigen::MatrixXd& matrix, Complex near) {
   Eigen::VectorXcd vector = Eigen::VectorXcd::Ones(matrix.rows()).normalized();
   Complex value = near;
-  for (int round = 0; round < 2; ++round) {
+  for (int round = 0; round < kFactorizations; ++round) {
     Eigen::MatrixXcd shifted = matrix.cast<Complex>();
-    shifted.diagonal().array() -= value * (1 + 1e-10);
+    shifted.diagonal().array() -= value * (1 + kShiftOffset);
     const Eigen::PartialPivLU<Eigen::MatrixXcd> inverse(shifted);
-    for (int iteration = 0; iteration < 3; ++iteration) vector = inverse.solve(vector).normalized();
+    for (int iteration = 0; iteration < kSolutions; ++iteration) vector = inverse.solve(vector).normalized();
     value = vector.dot(matrix * vector);
   }
   return {value, vector};
@@ -94,8 +106,9 @@ CriticalMultiplier critical_multiplier(const PeriodMap& map, double depth_m, Com
   const std::vector<ForceImpulse> forces = map.forces(depth_m, mu, vector);
   const Complex exponent = std::log(mu) / map.period_s();
   const double highest = structure.lambda.cwiseAbs().maxCoeff();
-  const auto harmonics =
-      static_cast<int>(std::min(std::ceil(1.2 * highest * map.period_s() / kTwoPi), kMostHarmonics)) + 1;
+  const auto harmonics = static_cast<int>(std::min(
+                             std::ceil(kHarmonicReach * highest * map.period_s() / kTwoPi), kMostHarmonics)) +
+                         1;
   double best = -1;
   for (int k = -harmonics; k <= harmonics; ++k) {
     const Complex s = exponent + Complex(0, kTwoPi * k / map.period_s());
@@ -103,8 +116,7 @@ CriticalMultiplier critical_multiplier(const PeriodMap& map, double depth_m, Com
     for (const ForceImpulse& force : forces) amplitude += force.impulse * std::exp(-s * force.time_s);
     const Eigen::MatrixXcd moved = structure.mode_receptances(s, amplitude);
     amplitude = moved.rowwise().sum();
-    // A tie (k and its mirror image of a real multiplier) goes to the first: the frequency is the same.
-    if (amplitude.norm() > best * (1 + 1e-9)) {
+    if (amplitude.norm() > best * (1 + kSameAmplitude)) {
       best = amplitude.norm();
       critical.chatter_frequency_hz = hz_from_rad_per_s(std::abs(s.imag()));
       critical.participation = (amplitude.adjoint() * moved).real().transpose() / amplitude.squaredNorm();

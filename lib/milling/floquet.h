@@ -1,4 +1,4 @@
-// Floquet multipliers of one period, whatever the discretization.
+// Floquet multipliers of one period [Floquet1883], whatever the discretization. README.md, "Multipliers".
 #pragma once
 
 #include <Eigen/Core>
@@ -9,15 +9,15 @@
 
 namespace stablecut::milling {
 
-/// The cutting force's impulse around a time in the period.
+/// A part of the cutting force's integral over a period: force times quadrature weight at a time.
 struct ForceImpulse {
   double time_s = 0;
-  Eigen::VectorXcd impulse;  ///< [directions], N s to a common factor
+  Eigen::VectorXcd impulse;  ///< [directions], N s times a factor that all share
 };
 
-/// One period at one speed: the tooth period, or the revolution where the pitches differ. The state begins
-/// with the real modal state (Re q, Im q); what was sensed before follows, in units of the structure's
-/// displacement scale.
+/// The motion over one period at one speed: the tooth period, or the revolution where the pitches differ. Its
+/// state begins with the real modal state (Re q, Im q); displacements that the surface keeps follow, in units
+/// of the structure's displacement scale.
 class PeriodMap {
  public:
   PeriodMap(const TipStructure& structure, double period_s, int passes)
@@ -29,7 +29,7 @@ class PeriodMap {
   /// The map of the state over one period at an axial depth (m), square.
   virtual Eigen::MatrixXd monodromy(double depth_m) const = 0;
 
-  /// The forces over a period that starts with an eigenvector of the monodromy matrix and its multiplier.
+  /// The forces over a period that starts in an eigenvector of the monodromy matrix, to its multiplier.
   virtual std::vector<ForceImpulse> forces(double depth_m, std::complex<double> multiplier,
                                            const Eigen::VectorXcd& state) const = 0;
 
@@ -43,35 +43,34 @@ class PeriodMap {
   int passes_;
 };
 
-/// The leading multipliers of each matrix of the map (sizes may differ), those from three quarters of the
-/// largest on and perhaps others; of complex pairs at least the one above the real axis. `states` as in
-/// leading_eigenvalues. Throws InvalidArgument when a matrix is not finite.
+/// The leading multipliers of each of some matrices (of sizes that may differ): those from numerics::kLeading
+/// times the largest modulus on, and perhaps others; of a complex pair at least the one above the real axis.
+/// `states` are the first rows of the matrices, those of the modal state. Throws InvalidArgument when a
+/// matrix is not finite.
 std::vector<Eigen::VectorXcd> leading_multipliers(std::vector<Eigen::MatrixXd> monodromy,
                                                   Eigen::Index states);
 
-/// The same at each depth.
+/// Those of a map at each depth.
 std::vector<Eigen::VectorXcd> leading_multipliers(const PeriodMap& map, const std::vector<double>& depths_m);
 
-/// Largest modulus among the multipliers, for one tooth's pass (its root where several pass in a period), at
-/// one depth and at each of several.
+/// The largest modulus among the multipliers at one depth, and at each of several. Where several teeth pass
+/// in a period it is the root for one tooth.
 double spectral_radius(const PeriodMap& map, double depth_m);
 std::vector<double> spectral_radii(const PeriodMap& map, const std::vector<double>& depths_m);
 
 /// How the multiplier leaves the unit circle: a complex pair, through -1, or through +1.
 enum class Instability { kHopf, kFlip, kFold };
 
-/// The largest multiplier, and how its mode shakes the tip.
+/// A multiplier on the unit circle, and how its motion shakes the tip. README.md, "Chatter frequency".
 struct CriticalMultiplier {
   std::complex<double> value;
   Instability kind = Instability::kHopf;
-  /// Among |arg(mu) / (2 pi T) + k / T| the one with the largest tip amplitude: the force of the Floquet mode
-  /// is expanded in harmonics, and each harmonic's amplitude is its receptance times its force. Hz.
+  /// The one of the frequencies |arg(mu) / (2 pi T) + k / T| at which the tip moves most, Hz [Dombovari2010].
   double chatter_frequency_hz = 0;
-  /// Share of each of the structure's modes in the tip's motion at that frequency, along it; they add up
-  /// to 1.
+  /// [modes] Share of each mode in the tip's motion at that frequency; they add up to 1.
   Eigen::VectorXd participation;
 };
-/// `near` is the largest multiplier but for some rounding or a step in depth.
+/// Of the map at a depth; `near` is a value close to the multiplier that is wanted.
 CriticalMultiplier critical_multiplier(const PeriodMap& map, double depth_m, std::complex<double> near);
 
 }  // namespace stablecut::milling

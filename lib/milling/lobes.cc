@@ -20,23 +20,38 @@ namespace {
 // Wanted change of the spectral radius when points are added, of max(1, radius). Far above the limit the
 // radius is large and nobody needs its last digits.
 constexpr double kConverged = 1e-8;
-constexpr int kMostPoints = 480;  // on a piece; then the error is what it is
-// With unequal pitches and several teeth in cut the error falls slowly; more points cost more than they give.
+constexpr int kMostPoints = 480;  // on the longest piece
+// The same with unequal pitches: with several teeth in cut the error falls slowly there, and more points cost
+// more than they give.
 constexpr double kConvergedByTooth = 3e-7;
 constexpr int kMostPointsByTooth = 60;
-// From this error on there is no answer.
+// An error from which on there is no answer.
 constexpr double kUseless = 0.01;
-// A radius from which on nobody needs its digits.
-constexpr double kFarAbove = 100;
-constexpr double kLeastShare = 1e-5;    // of the largest depth that is looked at
-constexpr int kStagnation = 3;          // refinements without improvement, once below
-constexpr double kNearRounding = 1e-5;  // this: rounding is what is left
+// Points to begin with: so many, and so many for each radian that the fastest mode turns in half a piece.
+constexpr double kFirstPoints = 6, kPointsPerRadian = 1.1;
+// Points that a refinement adds: one for each kPointsForOne at hand, but at least kLeastAdded.
+constexpr int kPointsForOne = 6, kLeastAdded = 3;
+// Maps are compared at these shares of the largest depth. Depths with a radius above kFarAbove do not count;
+// where all are, the depths are divided by kLowerBy, down to kLeastShare of the largest.
+constexpr std::array<double, 4> kShares = {1, 0.5, 0.25, 1.0 / 16};
+constexpr double kFarAbove = 100, kLowerBy = 64, kLeastShare = 1e-5;
+// Below kNearRounding, kStagnation refinements in a row that do not divide the error by kGain: what is left
+// is rounding.
+constexpr double kNearRounding = 1e-5, kGain = 2;
+constexpr int kStagnation = 3;
+// Shares of the largest depth at which the semi-discretization is compared with the collocation.
+constexpr std::array<double, 2> kSharesOfScheme = {1, 0.5};
+// A product of frequency and period this far below a whole number is that number: a multiplier counts as real
+// within 1e-7 of its size, 1.6e-8 of a wave.
+constexpr double kWholeWave = 1e-6;
+
 [[noreturn]] void fail_at(double revolutions_per_s, const std::string& what) {
-  throw NoAnswer("at " + number_text(60 * revolutions_per_s) + " rpm " + what +
-                 ": leave fast modes out with --modes, raise the speed, or lower the largest depth");
+  throw NoAnswer("at " + number_text(rpm_from_revolutions_per_s(revolutions_per_s)) + " rpm " + what +
+                     ": raise the speed, lower the largest depth, or leave fast modes out",
+                 Remedy::kModes);
 }
 
-// Enough points to be near convergence: a polynomial follows the fastest mode's turn over half a piece.
+// Points on the longest piece that should be near convergence. README.md, "How many points".
 int first_guess(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
                 double largest_depth_m) {
   double longest = 0;
@@ -44,7 +59,7 @@ int first_guess(const TipStructure& structure, const Cutter& cutter, double revo
     longest = std::max(longest, piece.to_rad - piece.from_rad);
   const double half_turn =
       structure.lambda.imag().cwiseAbs().maxCoeff() * longest / (2 * kTwoPi * revolutions_per_s);
-  const double points = 6 + 1.1 * half_turn;
+  const double points = kFirstPoints + kPointsPerRadian * half_turn;
   if (points > kMostPoints)
     fail_at(revolutions_per_s, "the fastest mode turns too often in one cut to be followed");
   return static_cast<int>(points);
@@ -53,8 +68,7 @@ int first_guess(const TipStructure& structure, const Cutter& cutter, double revo
 // The largest difference of two maps' radii over a few depths, of max(1, radius). Depths far above the limit
 // do not count, unless all are.
 double largest_difference(const PeriodMap& map, const PeriodMap& finer, double largest_depth_m) {
-  constexpr std::array<double, 4> kShares = {1, 0.5, 0.25, 1.0 / 16};
-  for (double top = largest_depth_m;; top /= 64) {
+  for (double top = largest_depth_m;; top /= kLowerBy) {
     std::vector<Eigen::MatrixXd> monodromy;
     for (const PeriodMap* of : {&map, &finer}) {
       for (const double share : kShares) monodromy.push_back(of->monodromy(share * top));
@@ -84,10 +98,10 @@ PreparedPeriod converged_spectral(const TipStructure& structure, const Cutter& c
   PreparedPeriod best;
   best.error = std::numeric_limits<double>::infinity();
   for (int without_gain = 0;;) {
-    const int finer_points = points + std::max(3, points / 6);
+    const int finer_points = points + std::max(kLeastAdded, points / kPointsForOne);
     auto finer = build(finer_points);
     const double error = largest_difference(*map, *finer, largest_depth_m);
-    without_gain = error < best.error / 2 || error > kNearRounding ? 0 : without_gain + 1;
+    without_gain = error < best.error / kGain || error > kNearRounding ? 0 : without_gain + 1;
     if (error < best.error) best = {std::move(map), error, points};
     if (error <= converged || finer_points > most || without_gain == kStagnation) break;
     points = finer_points;
@@ -105,7 +119,8 @@ PreparedPeriod prepare_period(const TipStructure& structure, const Cutter& cutte
   if (scheme.method == StabilityMethod::kSpectral) return spectral;
   auto map = std::make_unique<SemiDiscretizationMap>(structure, cutter, revolutions_per_s, scheme.intervals);
   double error = 0;
-  for (const double depth : {largest_depth_m, largest_depth_m / 2}) {
+  for (const double share : kSharesOfScheme) {
+    const double depth = share * largest_depth_m;
     const double exact = spectral_radius(*spectral.map, depth);
     error = std::max(error, std::abs(spectral_radius(*map, depth) - exact) / std::max(1.0, exact));
   }
@@ -129,6 +144,29 @@ std::optional<double> limit_depth(const TipStructure& structure, const Cutter& c
   const auto boundaries = DepthScan(*map, largest_depth_m, DepthScan::kForLimits).boundaries();
   return boundaries.empty() ? std::nullopt : std::optional(boundaries.front().depth_m);
 }
+
+int lobe_number(double chatter_frequency_hz, double tooth_period_s) {
+  return static_cast<int>(std::floor(chatter_frequency_hz * tooth_period_s + kWholeWave));
+}
+
+namespace {
+
+StabilityCrossing crossing_at(const StabilityBoundary& boundary, const PeriodMap& map,
+                              double tooth_period_s) {
+  const CriticalMultiplier critical = critical_multiplier(map, boundary.depth_m, boundary.multiplier);
+  StabilityCrossing crossing;
+  crossing.depth_m = boundary.depth_m;
+  crossing.unstable_above = boundary.unstable_above;
+  crossing.kind = critical.kind;
+  crossing.chatter_frequency_hz = critical.chatter_frequency_hz;
+  crossing.lobe = lobe_number(critical.chatter_frequency_hz, tooth_period_s);
+  Eigen::Index mode = 0;
+  crossing.participation = critical.participation.maxCoeff(&mode);
+  crossing.mode = map.structure().source[mode];
+  return crossing;
+}
+
+}  // namespace
 
 StabilityChart stability_chart(const TipStructure& structure, const Cutter& cutter,
                                const std::vector<double>& revolutions_per_s,
@@ -156,18 +194,9 @@ StabilityChart stability_chart(const TipStructure& structure, const Cutter& cutt
       const std::vector<double> radii = scan.spectral_radii(depths_m);
       chart.spectral_radius.col(s) = Eigen::Map<const Eigen::VectorXd>(radii.data(), depths);
     }
-    for (const StabilityBoundary& boundary : scan.boundaries()) {
-      const CriticalMultiplier critical =
-          critical_multiplier(*period.map, boundary.depth_m, boundary.multiplier);
-      StabilityCrossing crossing{
-          boundary.depth_m, boundary.unstable_above, critical.kind, critical.chatter_frequency_hz, 0, 0, 0};
-      crossing.lobe =
-          static_cast<int>(critical.chatter_frequency_hz * cutter.tooth_period_s(revolutions_per_s[s]));
-      Eigen::Index mode = 0;
-      crossing.participation = critical.participation.maxCoeff(&mode);
-      crossing.mode = structure.source[mode];
-      chart.crossings[s].push_back(crossing);
-    }
+    const double tooth_period_s = cutter.tooth_period_s(revolutions_per_s[s]);
+    for (const StabilityBoundary& boundary : scan.boundaries())
+      chart.crossings[s].push_back(crossing_at(boundary, *period.map, tooth_period_s));
   };
   parallel_for(
       speeds, threads,

@@ -9,7 +9,8 @@
 
 namespace stablecut::milling::fixtures {
 
-/// The published one-mode benchmark: 0.03993 kg, 922 Hz, zeta 0.011, alike in every direction of `dofs`.
+/// The one-mode benchmark of [Insperger2004] and [Ding2010]: 0.03993 kg, 922 Hz, zeta 0.011; the same in
+/// every direction of `dofs`.
 inline dynamics::ModalModel oscillator(const std::vector<std::string>& dofs) {
   dynamics::ModalModel model;
   model.dofs = dofs;

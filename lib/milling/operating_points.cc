@@ -10,18 +10,24 @@
 namespace stablecut::milling {
 namespace {
 
-constexpr double kFarthestMargins = 3;
+// The margin of speed around a point is checked at this many steps to either side. Beyond it stability is
+// followed in steps of kFarStep margins, to kFarthestMargins.
+constexpr int kStepsPerMargin = 4;
+constexpr double kFarStep = 0.5, kFarthestMargins = 3;
+// Minima of the chart around which the lowest limit is searched, by so many steps of golden section. Limits
+// up to kAbove times the lowest one known are computed there: what lies above cannot become the lowest.
 constexpr std::size_t kRefinedMinima = 2;
-constexpr double kFlipWidth = 4;  // damping ratios
-constexpr int kNarrowSteps = 4;
-constexpr double kMostWaves = 4;  // of a mode in a period: above, lobes are broad
 constexpr int kGoldenSteps = 10;
-constexpr double kAbove = 1.1;  // of the chart's minimum: as far as limits near it matter
+constexpr double kAbove = 1.1;
+// A flip's lobe: as wide as so many damping ratios of its mode, searched at so many steps; and above so many
+// waves in a period lobes are broad enough for the chart's speeds.
+constexpr double kFlipWidth = 4, kMostWaves = 4;
+constexpr int kNarrowSteps = 4;
 
-// Lower is better; a stable speed is as good as none.
+// Whether a limit is lower than another; no limit (stable to the largest depth) is higher than any.
 bool lower(const std::optional<double>& a, const std::optional<double>& b) { return a && (!b || *a < *b); }
 
-// Between speeds around the lowest one known.
+// The lowest limit between two speeds, from one known between them, by golden section.
 LimitPoint refined_minimum(double from, double to, const LimitPoint& best, const LimitAt& limit_at) {
   const double top = kAbove * *best.depth_m;
   return numerics::golden_section(
@@ -50,19 +56,21 @@ LimitPoint lowest_of(const NarrowLobe& lobe, double from, double to, double top,
   return best.depth_m ? refined_minimum(speed(at - 1), speed(at + 1), best, limit_at) : best;
 }
 
-// Lowers the depth until it keeps its margin at every step around, and finds how far it is stable.
+// Lowers the point's depth until it keeps the margin of depth over the whole margin of speed, and finds
+// between which speeds it is stable.
 void verify(OperatingPoint& point, double from, double to, const OperatingLimits& limits,
             const LimitAt& limit_at) {
   const auto speed = [&](double margins) {
     return std::clamp(point.revolutions_per_s * (1 + margins * limits.speed_share), from, to);
   };
-  for (int quarter = -4; quarter <= 4; ++quarter) {
-    if (const auto limit = limit_at(speed(quarter / 4.0), point.depth_m / (1 - limits.depth_share)))
+  for (int step = -kStepsPerMargin; step <= kStepsPerMargin; ++step) {
+    const double margins = static_cast<double>(step) / kStepsPerMargin;
+    if (const auto limit = limit_at(speed(margins), point.depth_m / (1 - limits.depth_share)))
       point.depth_m = (1 - limits.depth_share) * *limit;
   }
   const auto farthest = [&](double direction) {
     double reached = speed(direction);
-    for (double margins = 1.5; margins <= kFarthestMargins; margins += 0.5) {
+    for (double margins = 1 + kFarStep; margins <= kFarthestMargins; margins += kFarStep) {
       const double next = speed(direction * margins);
       if (next == reached || limit_at(next, point.depth_m)) break;
       reached = next;

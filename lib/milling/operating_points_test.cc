@@ -7,6 +7,8 @@
 #include "base/units.h"
 #include "milling/lobes.h"
 #include "milling/milling_fixtures_test.h"
+#include "milling/spectral.h"
+#include "milling/what_to_run.h"
 
 using namespace stablecut;
 using namespace stablecut::milling;
@@ -108,4 +110,40 @@ TEST_CASE("removal, power and torque of a cut") {
   CHECK(rate.removal_m3_per_s == Approx(30e-9));
   CHECK(rate.power_w == Approx(600e6 * 30e-9));
   CHECK(rate.torque_n_m == Approx(rate.power_w / (kTwoPi * 100)));
+}
+
+TEST_CASE("what to run keeps the chart's limits, and power and torque by the feed") {
+  const TipStructure structure = tip_structure(fixtures::oscillator({"x"}));
+  Cutter cutter = fixtures::benchmark_cutter(false, 1);
+  cutter.diameter_m = 0.012;
+  const std::vector<double> speeds = Range{8000.0 / 60, 20000.0 / 60, 25}.values();
+  const auto chart = stability_chart(structure, cutter, speeds, {3e-3}, {}, false, 2);
+  const LimitCurve curve = limit_curve(chart, speeds, StabilityMethod::kSpectral, 3e-3);
+  RunRequest request;
+  request.count = 3;
+  const WhatToRun plain = what_to_run(structure, cutter, curve, request, 2);
+  REQUIRE(plain.unconditional);
+  // The lowest limit of a slot between lobes.
+  CHECK(*plain.unconditional->depth_m < 0.323e-3);
+  CHECK(*plain.unconditional->depth_m > 0.3e-3);
+  REQUIRE(plain.best.size() == 3);
+  CHECK(plain.rates.empty());
+  for (const OperatingPoint& point : plain.best) {
+    for (const double share : {-0.02, -0.01, 0.0, 0.01, 0.02}) {
+      const double speed = std::clamp(point.revolutions_per_s * (1 + share), speeds.front(), speeds.back());
+      const SpectralMap map(structure, cutter, speed, 30);
+      CHECK(spectral_radius(map, point.depth_m) < 1);
+    }
+  }
+  request.feed_per_tooth_m = 0.05e-3;
+  request.largest_power_w =
+      0.5 * cut_rate(cutter, 0.05e-3, plain.best[0].revolutions_per_s, plain.best[0].depth_m).power_w;
+  const WhatToRun less = what_to_run(structure, cutter, curve, request, 1);
+  REQUIRE(less.rates.size() == less.best.size());
+  REQUIRE(!less.best.empty());
+  for (const CutRate& rate : less.rates) CHECK(rate.power_w <= *request.largest_power_w * (1 + 1e-12));
+  CHECK(less.rates[0].power_w == Approx(*request.largest_power_w));
+  request.largest_torque_n_m = 0.5 * less.rates[0].torque_n_m;
+  for (const CutRate& rate : what_to_run(structure, cutter, curve, request, 1).rates)
+    CHECK(rate.torque_n_m <= *request.largest_torque_n_m * (1 + 1e-12));
 }

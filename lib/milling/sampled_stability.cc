@@ -15,13 +15,16 @@
 namespace stablecut::milling {
 namespace {
 
-constexpr double kLeastShare = 0.01;  // of its mean that a positive parameter keeps
-constexpr double kLow = 0.025, kHigh = 0.975;
+// Frequencies, damping ratios and Kt are kept above this share of their means, damping ratios also below this
+// value.
+constexpr double kLeastOfMean = 0.01, kMostDamping = 0.99;
+constexpr double kLow = 0.025, kHigh = 0.975;  // quantiles
 
-// A root of a covariance: deviations are root * z with z normal. Negative eigenvalues are rounding.
+// A matrix R with R R^T the covariance, so that R z has it when z is standard normal. Negative eigenvalues
+// are rounding.
 Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance) {
   if (covariance.size() == 0) return covariance;
-  // In units of the deviations: frequencies and vectors differ by many powers of ten.
+  // Of the correlations: frequencies and mode vectors differ by many powers of ten.
   const Eigen::VectorXd scale = covariance.diagonal().cwiseMax(0).cwiseSqrt();
   const Eigen::VectorXd inverse = (scale.array() > 0).select(scale.cwiseInverse(), 0.0);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(inverse.asDiagonal() * covariance *
@@ -30,12 +33,13 @@ Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance) {
          solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 
-// The model with its parameters moved, in the order of a covariance.
+// The model with a change added to its parameters, in the order of its covariance.
 dynamics::ModalModel moved(dynamics::ModalModel model, const Eigen::VectorXd& by) {
   Eigen::Index at = 0;
   for (dynamics::Mode& mode : model.modes) {
-    mode.frequency_hz = std::max(mode.frequency_hz + by[at], kLeastShare * mode.frequency_hz);
-    mode.damping_ratio = std::clamp(mode.damping_ratio + by[at + 1], kLeastShare * mode.damping_ratio, 0.99);
+    mode.frequency_hz = std::max(mode.frequency_hz + by[at], kLeastOfMean * mode.frequency_hz);
+    mode.damping_ratio =
+        std::clamp(mode.damping_ratio + by[at + 1], kLeastOfMean * mode.damping_ratio, kMostDamping);
     at += 2;
     for (Eigen::VectorXcd* vector : {&mode.psi_r, &mode.psi_l}) {
       for (auto& component : *vector) {
@@ -62,7 +66,7 @@ std::vector<SampledCut> sampled_cuts(const dynamics::ModalModel& model, const Cu
     const double kt = deviations.kt_n_per_m2 * normal(), kr = deviations.kr_n_per_m2 * normal();
     for (const double side : {1.0, -1.0}) {
       SampledCut sample{tip_structure(by.size() > 0 ? moved(model, side * by) : model), cutter};
-      sample.cutter.kt_n_per_m2 = std::max(cutter.kt_n_per_m2 + side * kt, kLeastShare * cutter.kt_n_per_m2);
+      sample.cutter.kt_n_per_m2 = std::max(cutter.kt_n_per_m2 + side * kt, kLeastOfMean * cutter.kt_n_per_m2);
       sample.cutter.kr_n_per_m2 = std::max(cutter.kr_n_per_m2 + side * kr, 0.0);
       samples.push_back(std::move(sample));
     }

@@ -1,4 +1,5 @@
-// How sure a chart is: the cut again with tables and coefficients as they may be.
+// The uncertainty of a chart: the same cut with modal tables and cutting coefficients drawn at random.
+// README.md, "Sampled stability".
 #pragma once
 
 #include <Eigen/Core>
@@ -23,9 +24,10 @@ struct SampledCut {
   Cutter cutter;
 };
 
-/// Cuts with normally distributed parameters of the model, as its covariance says (none: exact), and
-/// coefficients; in pairs on opposite sides of the mean. Damping and Kt are kept from falling below a
-/// hundredth of their mean, Kr below 0. The same numbers for the same seed.
+/// Cuts whose modal parameters are drawn from a normal distribution with the model's covariance (where it has
+/// none, they are as in the model), and whose coefficients are drawn with their deviations; in pairs on
+/// opposite sides of the mean [Hammersley1956]. Frequencies, damping ratios and Kt are kept above a hundredth
+/// of their mean, Kr above 0. The same cuts for the same seed.
 std::vector<SampledCut> sampled_cuts(const dynamics::ModalModel& model, const Cutter& cutter,
                                      const CoefficientDeviations& deviations, int count, unsigned seed);
 
@@ -35,7 +37,8 @@ struct SampledStability {
   std::vector<std::array<std::optional<double>, 2>> limit_95_m;
 };
 
-/// `points` on the longest arc at each speed: as many as the mean cut needs.
+/// The share of the samples that is stable, and quantiles of their limits. `points` [speeds]: points on the
+/// longest piece of the cut, as many as the mean cut needed.
 SampledStability sampled_stability(const std::vector<SampledCut>& samples,
                                    const std::vector<double>& revolutions_per_s,
                                    const std::vector<double>& depths_m, const std::vector<int>& points,

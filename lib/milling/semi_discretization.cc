@@ -46,7 +46,8 @@ Eigen::MatrixXd SemiDiscretizationMap::monodromy(double depth_m) const {
       now = (flight * now).eval();
       continue;
     }
-    // (6-35): P = exp(A_i dt) and R = (P - I) A_i^-1 B_i at once, from exp of [A_i B_i; 0 0] dt.
+    // [RobotMillingThesis, eq. 6-35]: P = exp(A_i dt) and R = (P - I) A_i^-1 B_i, both from the exponential
+    // of [A_i B_i; 0 0] dt [VanLoan1978].
     const Eigen::MatrixXd force = depth_m * rate_of_force * coefficient;
     Eigen::MatrixXd augmented = Eigen::MatrixXd::Zero(states + d, states + d);
     augmented.topLeftCorner(states, states) = interval_s_ * (rate + force * displacement);
@@ -64,7 +65,7 @@ Eigen::MatrixXd SemiDiscretizationMap::monodromy(double depth_m) const {
 
 std::vector<ForceImpulse> SemiDiscretizationMap::forces(double, std::complex<double> multiplier,
                                                         const Eigen::VectorXcd& state) const {
-  // u = mu u_delayed, so the force is that of (mu - 1) u_delayed.
+  // A displacement is mu times the one of the period before, u, so that the force is that of (mu - 1) u.
   std::vector<ForceImpulse> result;
   Eigen::Index row = 2 * structure().modes();
   for (std::size_t i = 0; i < mean_coefficient_.size(); ++i) {

@@ -1,5 +1,5 @@
-// The thesis's zeroth-order semi-discretization (6-29) to (6-39), on the smallest state that keeps its
-// eigenvalues: the modal state, and the mean delayed displacement over each interval in cut.
+// The zeroth-order semi-discretization of [RobotMillingThesis, eqs. 6-29 to 6-39], after [Insperger2004], on
+// the smallest state that keeps its eigenvalues. README.md, "Semi-discretization".
 #pragma once
 
 #include <Eigen/Core>
@@ -9,17 +9,18 @@
 
 namespace stablecut::milling {
 
-/// Only the tip displacement is delayed, and with w_a = w_b = 1/2 only the mean of its values at an
-/// interval's two ends; the textbook matrix of (m + 1) full states has the same nonzero eigenvalues.
+/// Only the tip's displacement is delayed, and with w_a = w_b = 1/2 only the mean of its values at the two
+/// ends of an interval: the state is the modal state and that mean for each interval in cut. The textbook
+/// matrix of m + 1 full states has the same nonzero eigenvalues.
 class SemiDiscretizationMap : public PeriodMap {
  public:
-  /// For straight teeth of equal pitch, without process damping. `intervals` is m >= 1, from phase 0 on
-  /// (tooth 1 at +Y). The structure must outlive the map.
+  /// For straight teeth of equal pitch, without process damping. `intervals` is m >= 1; the first begins when
+  /// tooth 1 is at +Y. The structure must outlive the map.
   SemiDiscretizationMap(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
                         int intervals);
 
-  /// [2 modes + directions * intervals in cut, square]. The averages (6-29) are exact integrals; each
-  /// interval's map is a matrix exponential, free flight is exact.
+  /// [2 modes + directions * intervals in cut, square]. The means of A over the intervals are exact
+  /// integrals, an interval's map is a matrix exponential, and motion without a force is exact.
   Eigen::MatrixXd monodromy(double depth_m) const override;
   std::vector<ForceImpulse> forces(double depth_m, std::complex<double> multiplier,
                                    const Eigen::VectorXcd& state) const override;

@@ -13,8 +13,8 @@ using Complex = std::complex<double>;
 
 namespace {
 
-// The textbook scheme, (6-34) to (6-39) to the letter: (m + 1) full complex modal states, one matrix D_i for
-// each interval, their product.
+// The scheme of [RobotMillingThesis, eqs. 6-34 to 6-39] to the letter: (m + 1) full complex modal states, a
+// matrix D_i for each interval, and their product.
 double textbook_radius(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s, int m,
                        double depth_m) {
   const Eigen::Index n = structure.modes();

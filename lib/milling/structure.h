@@ -1,4 +1,5 @@
-// The structure as the stability methods see it: modes driven at and read off the tool tip.
+// The structure as the stability methods see it: modes that a force at the tool tip drives and that move the
+// tip. README.md, "The structure".
 #pragma once
 
 #include <Eigen/Core>
@@ -9,14 +10,15 @@
 
 namespace stablecut::milling {
 
-/// q' = Lambda q + Psi_L^T f, r = 2 Re(Psi_R q): one complex state for each pair of poles (6-20), (6-22).
+/// q' = Lambda q + Psi_L^T f, r = 2 Re(Psi_R q): one complex coordinate for each pair of poles
+/// [RobotMillingThesis, eqs. 6-20 and 6-22].
 struct TipStructure {
   Eigen::VectorXcd lambda;          ///< [modes], rad/s, positive imaginary parts
   Eigen::MatrixXcd psi_r;           ///< [directions x modes], sqrt(s/kg)
   Eigen::MatrixXcd psi_l;           ///< [directions x modes], sqrt(s/kg)
-  std::vector<Eigen::Index> axes;   ///< [directions] 0 for x, 1 for y: which directions can move
+  std::vector<Eigen::Index> axes;   ///< [directions] 0 for x, 1 for y: the directions that can move
   std::vector<std::size_t> source;  ///< [modes] index of each in the model
-  double displacement_scale_m = 1;  ///< a displacement of this size is comparable to a state of size 1
+  double displacement_scale_m = 1;  ///< the displacement that a modal coordinate of size 1 causes, about
 
   Eigen::Index modes() const { return lambda.size(); }
   Eigen::Index directions() const { return axes.size(); }
@@ -25,15 +27,15 @@ struct TipStructure {
   Eigen::MatrixXd displacement_of_state() const;
   /// Rate of the real state per unit force, [2 modes x directions], 1/(N s).
   Eigen::MatrixXd state_rate_of_force() const;
-  /// The real state's map over free flight of `time_s`, [2 modes x 2 modes]: exact.
+  /// The map of the real state over `time_s` without a force, [2 modes x 2 modes]; exact.
   Eigen::MatrixXd free_flight(double time_s) const;
-  /// How each mode moves the tip under a force [directions] at the complex frequency s (rad/s), [directions x
-  /// modes], m/N times the force; their sum is the receptance times the force.
+  /// The tip's motion in each mode under a force [directions] that grows as exp(s t), s in rad/s: [directions
+  /// x modes], m/N times the force's unit. Their sum is the receptance at s times the force.
   Eigen::MatrixXcd mode_receptances(std::complex<double> s, const Eigen::VectorXcd& force) const;
 };
 
-/// Directions x and y of the model. Other dofs are left out, and so is a mode that no force in x or y drives
-/// or that moves neither: the result may have no modes, and then nothing can chatter. Throws InvalidArgument
+/// The modes of a model in its directions x and y; other dofs are left out, and so are modes that no force in
+/// x or y drives or that move neither. Where no mode is left, nothing can chatter. Throws InvalidArgument
 /// when the model has neither direction.
 TipStructure tip_structure(const dynamics::ModalModel& model);
 

@@ -52,11 +52,11 @@ def lagrange(nodes, x):
 class Cut:
     """From the entry angle on; the period starts where the tooth enters."""
 
-    def __init__(self, rpm, entry, leave, directions):
+    def __init__(self, rpm, entry, leave, directions, count=None):
         self.period = 60 / (TEETH * rpm)
         speed = 2 * math.pi * rpm / 60
         arc = (leave - entry) / speed
-        count = 12 + int(12 * arc / self.period) + int(0.45 * OMEGA * arc)
+        count = count or 12 + int(12 * arc / self.period) + int(0.45 * OMEGA * arc)
         nodes, _ = gauss(count)
         fine, fine_weights = gauss(count + 12)
         times = [arc * (x + 1) / 2 for x in nodes]
@@ -96,16 +96,20 @@ class Cut:
                 for i, t in enumerate(times):
                     self.seen[i].append(residue * cmath.exp(pole * t) * sense(t)[d])
 
-    def determinant(self, depth, phi):
+    def operator(self, phi):
+        """(1 - 1/mu) M(mu) at mu = e^(i phi)."""
         mu = cmath.exp(1j * phi)
-        factor = depth * (1 - 1 / mu)
         shares = [1 / (mu - m) for m in self.multiplier]
+        rows = []
+        for own, seen in zip(self.own, self.seen):
+            carried = [s * g for s, g in zip(seen, shares)]
+            rows.append([(1 - 1 / mu) * (own[j] + sum(c * left[j] for c, left in zip(carried, self.left)))
+                         for j in range(len(own))])
+        return rows
+
+    def determinant(self, depth, phi):
         n = len(self.own)
-        a = []
-        for i in range(n):
-            carried = [s * g for s, g in zip(self.seen[i], shares)]
-            a.append([(i == j) - factor * (self.own[i][j] + sum(c * left[j] for c, left in zip(carried, self.left)))
-                      for j in range(n)])
+        a = [[(i == j) - depth * value for j, value in enumerate(row)] for i, row in enumerate(self.operator(phi))]
         result = 1 + 0j
         for k in range(n):
             best = max(range(k, n), key=lambda r: abs(a[r][k]))
@@ -139,19 +143,24 @@ class Cut:
         return round(-turn / math.pi)  # half of the circle; the determinant turns backwards
 
 
-wrong = False
-texts = []
-for (table, flips), entry, leave, directions in ((SLOT, 0.0, math.pi, 1), (LOW, 0.0, math.acos(0.9), 2)):
-    rows = []
-    for rpm, text in table.items():
-        cut = Cut(rpm, entry, leave, directions)
-        limit = float(text) * 1e-3
-        below = [cut.unstable(depth) for depth in [limit * k / 6 for k in range(1, 6)] + [limit - 0.5e-8]]
-        above = cut.unstable(limit + 0.5e-8)
-        wrong |= any(below) or above == 0 or (above == 1) != (rpm in flips)
-        rows.append(f"{{{rpm}, {text}, {'kFlip' if above == 1 else 'kHopf'}}}")
-    texts.append("{" + ", ".join(rows) + "}")
-    print(texts[-1])
-print("not confirmed" if wrong else "confirmed to half a unit of the last digit")
-stands_in("lib/milling/lobes_test.cc", *texts)
-sys.exit(1 if wrong else 0)
+def main():
+    wrong = False
+    texts = []
+    for (table, flips), entry, leave, directions in ((SLOT, 0.0, math.pi, 1), (LOW, 0.0, math.acos(0.9), 2)):
+        rows = []
+        for rpm, text in table.items():
+            cut = Cut(rpm, entry, leave, directions)
+            limit = float(text) * 1e-3
+            below = [cut.unstable(depth) for depth in [limit * k / 6 for k in range(1, 6)] + [limit - 0.5e-8]]
+            above = cut.unstable(limit + 0.5e-8)
+            wrong |= any(below) or above == 0 or (above == 1) != (rpm in flips)
+            rows.append(f"{{{rpm}, {text}, {'kFlip' if above == 1 else 'kHopf'}}}")
+        texts.append("{" + ", ".join(rows) + "}")
+        print(texts[-1])
+    print("not confirmed" if wrong else "confirmed to half a unit of the last digit")
+    stands_in("lib/milling/lobes_test.cc", *texts)
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

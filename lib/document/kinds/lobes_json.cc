@@ -85,16 +85,13 @@ Json rows_to_json(const Eigen::MatrixXd& matrix) {
   return rows;
 }
 
-Json point_to_json(const JudgedCut& point) {
-  const bool stable = is_stable(point.spectral_radius);
-  Json item = {{"depth_mm", point.cut.depth_mm},
-               {"speed_rpm", point.cut.speed_rpm},
-               {"spectral_radius", point.spectral_radius},
-               {"stable", stable}};
-  if (point.cut.observed_stable) {
-    item["observed"] = *point.cut.observed_stable ? "stable" : "chatter";
-    item["agrees"] = *point.cut.observed_stable == stable;
-  }
+Json point_to_json(const MeasuredCut& cut, const milling::JudgedCut& judged) {
+  Json item = {{"depth_mm", cut.depth_mm},
+               {"speed_rpm", cut.speed_rpm},
+               {"spectral_radius", judged.spectral_radius},
+               {"stable", judged.stable}};
+  if (cut.observed_stable) item["observed"] = *cut.observed_stable ? "stable" : "chatter";
+  if (judged.agrees) item["agrees"] = *judged.agrees;
   return item;
 }
 
@@ -102,7 +99,7 @@ Json optional_mm(const std::optional<double>& metres) {
   return metres ? Json(mm_from_metres(*metres)) : Json(nullptr);
 }
 
-Json what_to_run_to_json(const WhatToRun& what) {
+Json what_to_run_to_json(const milling::WhatToRun& what) {
   Json document = {{"depth_margin", what.limits.depth_share}, {"speed_margin", what.limits.speed_share}};
   document["unconditional"] = {{"depth_mm", nullptr}};
   if (what.unconditional) {
@@ -147,19 +144,75 @@ void read_columns(const Node& rows, const Shard& shard, Eigen::MatrixXd& grid) {
   }
 }
 
+// Whether a part is of the whole's chart, as documents say it.
+void check_part(const Node& root, const LobesDocument& whole, const Shard& shard, bool with_grid) {
+  if (root.at("cut").json() != whole.cut) root.at("cut").fail("expected the cut and chart of this run");
+  const bool spectral = whole.scheme.method == milling::StabilityMethod::kSpectral;
+  if (root.at("method").text() != (spectral ? "spectral" : "sdm") ||
+      (!spectral && root.at("intervals").json() != whole.scheme.intervals)) {
+    root.at("method").fail("expected the method of this run");
+  }
+  if (root.at("speed_rpm").json() != Json(shard.part_of(whole.speed_rpm)))
+    root.at("speed_rpm").fail("expected this part's speeds");
+  if (root.at("depth_mm").json() != Json(whole.depth_mm))
+    root.at("depth_mm").fail("expected the depths of this run");
+  // A member that is missing has no place of its own: the document's.
+  const auto member = [&](const char* name) { return root.has(name) ? root.at(name) : root; };
+  if ((root.has("samples") ? root.at("samples").json() : Json(0)) != whole.samples)
+    member("samples").fail("expected the number of samples of this run");
+  if (root.has("spectral_radius") != with_grid)
+    member("spectral_radius").fail("expected a grid as in this run");
+}
+
+// Puts a part's columns where they belong in the whole.
+void take_part(const Node& root, const Shard& shard, bool with_grid, LobesDocument& whole) {
+  milling::StabilityChart& chart = whole.chart;
+  const std::vector<double> own = shard.part_of(whole.speed_rpm);
+  const auto column = [&](std::size_t s) {
+    return s * static_cast<std::size_t>(shard.count) + static_cast<std::size_t>(shard.index - 1);
+  };
+  if (with_grid) read_columns(root.at("spectral_radius"), shard, chart.spectral_radius);
+  if (with_grid && whole.sampled)
+    read_columns(root.at("probability_stable"), shard, whole.sampled->stable_share);
+  const Eigen::VectorXd resolution = root.at("resolution").numbers(kPositive);
+  const auto limits = root.at("limit").items();
+  if (resolution.size() != static_cast<Eigen::Index>(own.size()) || limits.size() != own.size())
+    root.at("limit").fail("expected an entry for each speed");
+  for (std::size_t s = 0; s < own.size(); ++s) {
+    chart.error[column(s)] = root.at("convergence").number(kNotNegative);
+    chart.resolution[column(s)] = static_cast<int>(resolution[s]);
+    if (!whole.sampled) continue;
+    const auto interval = limits[s].at("interval_95_mm").items(2);
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (!interval[end].is_null())
+        whole.sampled->limit_95_m[column(s)][end] = metres_written_as(interval[end].number());
+    }
+  }
+  for (const Node& item : root.at("crossings").items()) {
+    const auto at = std::find(own.begin(), own.end(), item.at("speed_rpm").number());
+    if (at == own.end()) item.at("speed_rpm").fail("expected one of this part's speeds");
+    chart.crossings[column(at - own.begin())].push_back(crossing_from(item));
+  }
+}
+
 }  // namespace
 
 double as_written(double metres) { return metres_written_as(mm_from_metres(metres)); }
 
+double LobesDocument::convergence() const {
+  double error = 0;
+  for (const double of_speed : chart.error) error = std::max(error, of_speed);
+  for (const milling::JudgedCut& judged : judged_cuts) error = std::max(error, judged.error);
+  return error;
+}
+
 Json lobes_to_json(const LobesDocument& lobes) {
   const milling::StabilityChart& chart = lobes.chart;
   const bool spectral = lobes.scheme.method == milling::StabilityMethod::kSpectral;
-  double error = lobes.points_error;
-  for (const double of_speed : chart.error) error = std::max(error, of_speed);
   Json document = {{"format", "stablecut/lobes/1"},
                    {"cut", lobes.cut},
                    {"method", spectral ? "spectral" : "sdm"},
-                   {"convergence", error}};
+                   {"convergence", lobes.convergence()}};
   if (spectral) {
     const auto [least, largest] = std::minmax_element(chart.resolution.begin(), chart.resolution.end());
     document["points_per_arc"] = {{"least", *least}, {"largest", *largest}};
@@ -188,14 +241,15 @@ Json lobes_to_json(const LobesDocument& lobes) {
   if (lobes.what_to_run) document["what_to_run"] = what_to_run_to_json(*lobes.what_to_run);
   if (!lobes.per_mode.empty()) {
     Json list = Json::array();
-    for (const ModeLimit& mode : lobes.per_mode) {
-      list.push_back({{"mode", mode.mode}, {"limit", limit_to_json(lobes.speed_rpm, mode.crossings)}});
+    for (const milling::ModeLimit& limit : lobes.per_mode) {
+      list.push_back({{"mode", limit.mode + 1}, {"limit", limit_to_json(lobes.speed_rpm, limit.crossings)}});
     }
     document["per_mode"] = std::move(list);
   }
-  if (!lobes.points.empty()) {
+  if (!lobes.judged_cuts.empty()) {
     Json list = Json::array();
-    for (const JudgedCut& point : lobes.points) list.push_back(point_to_json(point));
+    for (std::size_t i = 0; i < lobes.judged_cuts.size(); ++i)
+      list.push_back(point_to_json(lobes.measured_cuts[i], lobes.judged_cuts[i]));
     document["points"] = std::move(list);
   }
   return document;
@@ -205,8 +259,7 @@ void merge_parts(LobesDocument& whole, bool with_grid, const Json& whole_of,
                  const std::vector<Input>& parts) {
   const std::size_t speeds = whole.speed_rpm.size();
   const auto count = static_cast<int>(parts.size());
-  const Eigen::Index columns = speeds;
-  const Eigen::Index depths = whole.depth_mm.size();
+  const Eigen::Index columns = speeds, depths = whole.depth_mm.size();
   milling::StabilityChart& chart = whole.chart;
   if (with_grid) chart.spectral_radius.resize(depths, columns);
   chart.crossings.assign(speeds, {});
@@ -217,8 +270,6 @@ void merge_parts(LobesDocument& whole, bool with_grid, const Json& whole_of,
     if (with_grid) whole.sampled->stable_share.resize(depths, columns);
     whole.sampled->limit_95_m.resize(speeds);
   }
-  // What must be alike, as a document says it.
-  const bool spectral = whole.scheme.method == milling::StabilityMethod::kSpectral;
   std::vector<bool> seen(parts.size(), false);
   for (const Input& part : parts) {
     const Node root = document_root(part.document, part.source, "lobes");
@@ -229,47 +280,8 @@ void merge_parts(LobesDocument& whole, bool with_grid, const Json& whole_of,
     if (of.at("of").json() != whole_of) of.at("of").fail("expected the inputs and options of this run");
     if (seen[shard.index - 1]) of.at("index").fail("expected each part once");
     seen[shard.index - 1] = true;
-    if (root.at("cut").json() != whole.cut) root.at("cut").fail("expected the cut and chart of this run");
-    if (root.at("method").text() != (spectral ? "spectral" : "sdm") ||
-        (!spectral && root.at("intervals").json() != whole.scheme.intervals)) {
-      root.at("method").fail("expected the method of this run");
-    }
-    const std::vector<double> own = shard.part_of(whole.speed_rpm);
-    if (root.at("speed_rpm").json() != Json(own)) root.at("speed_rpm").fail("expected this part's speeds");
-    if (root.at("depth_mm").json() != Json(whole.depth_mm))
-      root.at("depth_mm").fail("expected the depths of this run");
-    // The whole document's place where what should be there is not.
-    const auto member = [&](const char* name) { return root.has(name) ? root.at(name) : root; };
-    if ((root.has("samples") ? root.at("samples").json() : Json(0)) != whole.samples)
-      member("samples").fail("expected the number of samples of this run");
-    if (root.has("spectral_radius") != with_grid)
-      member("spectral_radius").fail("expected a grid as in this run");
-
-    const auto column = [&](std::size_t s) {
-      return s * static_cast<std::size_t>(count) + static_cast<std::size_t>(shard.index - 1);
-    };
-    if (with_grid) read_columns(root.at("spectral_radius"), shard, chart.spectral_radius);
-    if (with_grid && whole.sampled)
-      read_columns(root.at("probability_stable"), shard, whole.sampled->stable_share);
-    const Eigen::VectorXd resolution = root.at("resolution").numbers(kPositive);
-    const auto limits = root.at("limit").items();
-    if (resolution.size() != static_cast<Eigen::Index>(own.size()) || limits.size() != own.size())
-      root.at("limit").fail("expected an entry for each speed");
-    for (std::size_t s = 0; s < own.size(); ++s) {
-      chart.error[column(s)] = root.at("convergence").number(kNotNegative);
-      chart.resolution[column(s)] = static_cast<int>(resolution[s]);
-      if (!whole.sampled) continue;
-      const auto interval = limits[s].at("interval_95_mm").items(2);
-      for (std::size_t end = 0; end < 2; ++end) {
-        if (!interval[end].is_null())
-          whole.sampled->limit_95_m[column(s)][end] = metres_written_as(interval[end].number());
-      }
-    }
-    for (const Node& item : root.at("crossings").items()) {
-      const auto at = std::find(own.begin(), own.end(), item.at("speed_rpm").number());
-      if (at == own.end()) item.at("speed_rpm").fail("expected one of this part's speeds");
-      chart.crossings[column(at - own.begin())].push_back(crossing_from(item));
-    }
+    check_part(root, whole, shard, with_grid);
+    take_part(root, shard, with_grid, whole);
   }
 }
 

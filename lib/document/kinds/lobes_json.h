@@ -1,33 +1,18 @@
 // Kind `lobes`: the stability chart.
 #pragma once
 
-#include <array>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "document/measured/measured_cuts.h"
 #include "document/text/json_text.h"
 #include "milling/lobes.h"
-#include "milling/operating_points.h"
+#include "milling/mode_limits.h"
 #include "milling/sampled_stability.h"
+#include "milling/tested_cuts.h"
+#include "milling/what_to_run.h"
 
 namespace stablecut::document {
-
-/// What the model says of a tested cut.
-struct JudgedCut {
-  MeasuredCut cut;
-  double spectral_radius = 0;
-};
-
-/// A cut is stable below a spectral radius of 1.
-inline bool is_stable(double radius) { return radius < 1; }
-
-/// The limit curve of one mode alone.
-struct ModeLimit {
-  int mode = 0;  ///< 1-based, in the table
-  std::vector<std::vector<milling::StabilityCrossing>> crossings;
-};
 
 /// Part K of N of a chart: every Nth speed from the Kth on.
 struct Shard {
@@ -45,13 +30,6 @@ struct Shard {
   }
 };
 
-struct WhatToRun {
-  std::optional<milling::LimitPoint> unconditional;
-  milling::OperatingLimits limits;
-  std::vector<milling::OperatingPoint> best;
-  std::vector<milling::CutRate> rates;  ///< of the best, where feed and diameter are known
-};
-
 struct LobesDocument {
   Json cut;  ///< as used: the document's fields with the command line's in their place
   milling::StabilityScheme scheme;
@@ -61,22 +39,26 @@ struct LobesDocument {
   milling::StabilityChart chart;
   int samples = 0;
   std::optional<milling::SampledStability> sampled;
-  std::vector<ModeLimit> per_mode;
-  std::vector<JudgedCut> points;
-  double points_error = 0;  ///< largest estimated error of the points' radii
-  std::optional<WhatToRun> what_to_run;
+  std::vector<milling::ModeLimit> per_mode;  ///< modes as in the table
+  std::vector<MeasuredCut> measured_cuts;
+  std::vector<milling::JudgedCut> judged_cuts;  ///< as many
+  std::optional<milling::WhatToRun> what_to_run;
+
+  /// The largest estimated error of the spectral radii.
+  double convergence() const;
 };
 
 /// The document without provenance.
 Json lobes_to_json(const LobesDocument& lobes);
 
-/// The chart of all the speeds of `whole` from its parts, documents written with `shard`: fills in `chart`
-/// and `sampled`; the rest must be there, and `whole_of` is what a part's `of` must be. Throws DataError
-/// where a part is not one, is of another chart, or is missing.
+/// Puts the parts of a chart, documents that were written with a shard, together: fills in `chart` and
+/// `sampled` of `whole`, whose other members say which chart it is, and `whole_of` what its parts' `of` must
+/// be. Throws DataError where a document is no part, is a part of another chart, or where a part is missing.
 void merge_parts(LobesDocument& whole, bool with_grid, const Json& whole_of, const std::vector<Input>& parts);
 
-/// A length in metres as it is when read back from the document that it is written to, so that a chart put
-/// together from parts is the same to the last digit.
+/// A length in metres as it is read back from the document that it is written to. What is computed from a
+/// chart is computed from these, so that it is the same to the last digit from a chart put together from
+/// parts.
 double as_written(double metres);
 
 }  // namespace stablecut::document

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/units.h"
 #include "document/text/data_error.h"
 #include "document/text/node.h"
 #include "document/text/table_text.h"
@@ -73,6 +74,14 @@ std::vector<MeasuredCut> from_csv(const Source& source) {
 
 std::vector<MeasuredCut> measured_cuts(const Source& source, const Json& document) {
   return document.is_null() ? from_csv(source) : from_json(document, source);
+}
+
+std::vector<milling::TestedCut> tested_cuts(const std::vector<MeasuredCut>& cuts) {
+  std::vector<milling::TestedCut> tested;
+  for (const MeasuredCut& cut : cuts)
+    tested.push_back(
+        {revolutions_per_s_from_rpm(cut.speed_rpm), metres_from_mm(cut.depth_mm), cut.observed_stable});
+  return tested;
 }
 
 }  // namespace stablecut::document

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "document/text/json_text.h"
+#include "milling/tested_cuts.h"
 
 namespace stablecut::document {
 
@@ -19,5 +20,8 @@ struct MeasuredCut {
 /// "observed"}, or an object with that list under "points". `document` is the parsed JSON, null for CSV.
 /// Throws DataError.
 std::vector<MeasuredCut> measured_cuts(const Source& source, const Json& document);
+
+/// The same in the units of the numeric rooms.
+std::vector<milling::TestedCut> tested_cuts(const std::vector<MeasuredCut>& cuts);
 
 }  // namespace stablecut::document

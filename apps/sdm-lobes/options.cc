@@ -1,0 +1,173 @@
+#include "options.h"
+
+#include <algorithm>
+
+#include "cli/exit_status.h"
+#include "document/text/data_error.h"
+
+namespace stablecut {
+namespace {
+
+bool is_positive(double value) { return value > 0; }
+bool is_not_negative(double value) { return value >= 0; }
+bool is_margin(double value) { return value >= 0 && value < 1; }
+bool is_immersion(double value) { return value > 0 && value <= 1; }
+
+}  // namespace
+
+void CutOptions::declare(CLI::App& app) {
+  declared_ = {cli::add_integer_option(app, "--teeth", teeth_, 1, "Number of teeth"),
+               cli::add_number_option(app, "--kt", kt_, "Tangential cutting coefficient, N/mm2",
+                                      "a number above 0", is_positive),
+               cli::add_number_option(app, "--kr", kr_, "Radial cutting coefficient, N/mm2",
+                                      "a number not below 0", is_not_negative),
+               cli::add_choice_option(app, "--milling", milling_, "up|down", "Up- or down-milling"),
+               cli::add_number_option(app, "--immersion", immersion_,
+                                      "Radial immersion ae/D: width of cut by diameter",
+                                      "a ratio above 0 and at most 1", is_immersion)};
+}
+
+document::Json CutOptions::read_document(const Reader& read_input) {
+  const bool given = std::any_of(declared_.begin(), declared_.end(),
+                                 [](const CLI::Option* option) { return option->count() > 0; });
+  if (!path.empty()) {
+    cli::refuse_if(given, "--cut: expected either a cut document or --teeth --kt --kr --milling --immersion");
+    const document::Input input = read_input(path, cli::InputForm::kJson);
+    source_ = input.source;
+    return input.document;
+  }
+  for (const CLI::Option* option : declared_) {
+    cli::refuse_if(
+        option->count() == 0,
+        option->get_name() + ": missing: expected --cut, or --teeth --kt --kr --milling --immersion");
+  }
+  source_.name = "options";
+  return {{"format", "stablecut/cut/1"}, {"teeth", *teeth_},    {"kt_n_per_mm2", *kt_},
+          {"kr_n_per_mm2", *kr_},        {"milling", milling_}, {"radial_immersion", *immersion_}};
+}
+
+void CutOptions::read(const Reader& read_input) {
+  document_ = read_document(read_input);
+  try {
+    cut_ = document::cut_from_json(document_, source_);
+  } catch (const document::DataError& error) {
+    if (!path.empty()) throw;
+    throw cli::WrongUsage(error.what());
+  }
+}
+
+document::Json CutOptions::as_used(const Range& speed_rpm, const Range& depth_mm) const {
+  document::Json used = document_;
+  used.erase("format");
+  used.erase("provenance");
+  const auto range = [](const Range& r) {
+    return document::Json{{"from", r.from}, {"to", r.to}, {"count", r.count}};
+  };
+  used["chart"] = {{"speed_rpm", range(speed_rpm)}, {"depth_mm", range(depth_mm)}};
+  return used;
+}
+
+void ModeOptions::declare(CLI::App& app) {
+  app.add_option_function<std::string>(
+         "--modes",
+         [this](const std::string& text) {
+           listed_ = parse_index_list(text);
+           if (!listed_)
+             throw cli::WrongUsage("--modes: " + text + ": expected 1-based indices such as 1-7,14-15");
+         },
+         "Use only these modes of the table, such as 1-7,14-15")
+      ->type_name("LIST");
+}
+
+std::vector<std::size_t> ModeOptions::chosen(const dynamics::ModalModel& table,
+                                             const std::string& name) const {
+  std::vector<std::size_t> indices;
+  if (!listed_) {
+    for (std::size_t k = 0; k < table.modes.size(); ++k) indices.push_back(k);
+    return indices;
+  }
+  for (const int index : *listed_) {
+    cli::refuse_if(static_cast<std::size_t>(index) > table.modes.size(),
+                   "--modes: " + std::to_string(index) + ": expected at most " +
+                       std::to_string(table.modes.size()) + ", the modes of " + name);
+    indices.push_back(index - 1);
+  }
+  return indices;
+}
+
+dynamics::ModalModel ModeOptions::model(const dynamics::ModalModel& table, const std::string& name) const {
+  return listed_ ? dynamics::chosen_modes(table, chosen(table, name)) : table;
+}
+
+void ModeOptions::name_as_in_table(milling::StabilityChart& chart) const {
+  if (!listed_) return;
+  for (auto& crossings : chart.crossings) {
+    for (milling::StabilityCrossing& crossing : crossings)
+      crossing.mode = static_cast<std::size_t>((*listed_)[crossing.mode] - 1);
+  }
+}
+
+void RunOptions::declare(CLI::App& app) {
+  cli::add_integer_option(app, "--best", count_, 0, "Number of best points at most (default: 5)");
+  cli::add_number_option(app, "--depth-margin", depth_margin_,
+                         "Share of the limit depth that the best points stay below it (default: 0.1)",
+                         "a ratio not below 0 and below 1", is_margin);
+  cli::add_number_option(app, "--speed-margin", speed_margin_,
+                         "Share of the speed, to either side, over which they stay stable (default: 0.02)",
+                         "a ratio not below 0 and below 1", is_margin);
+  cli::add_number_option(app, "--max-power", largest_power_,
+                         "Cutting power that they may take, W; needs feed_per_tooth_mm in the cut",
+                         "a number above 0", is_positive);
+  cli::add_number_option(app, "--max-torque", largest_torque_,
+                         "Spindle torque that they may take, N m; needs feed_per_tooth_mm in the cut",
+                         "a number above 0", is_positive);
+}
+
+milling::RunRequest RunOptions::request(const document::CutDocument& cut) const {
+  if ((largest_power_ || largest_torque_) && !cut.feed_per_tooth_m) {
+    throw cli::WrongUsage((largest_power_ ? std::string("--max-power") : std::string("--max-torque")) +
+                          ": expected feed_per_tooth_mm and diameter_mm in the cut");
+  }
+  milling::RunRequest request;
+  if (count_) request.count = static_cast<std::size_t>(*count_);
+  if (depth_margin_) request.depth_share = *depth_margin_;
+  if (speed_margin_) request.speed_share = *speed_margin_;
+  request.feed_per_tooth_m = cut.feed_per_tooth_m;
+  request.largest_power_w = largest_power_;
+  request.largest_torque_n_m = largest_torque_;
+  return request;
+}
+
+std::vector<const CLI::Option*> PartOptions::declare(CLI::App& app) {
+  const CLI::Option* part =
+      app.add_option_function<std::string>(
+             "--shard",
+             [this](const std::string& text) {
+               const auto slash = text.find('/');
+               const auto index = parse_integer(text.substr(0, slash));
+               const auto count =
+                   slash == std::string::npos ? std::nullopt : parse_integer(text.substr(slash + 1));
+               if (!index || !count || *index < 1 || *index > *count)
+                 throw cli::WrongUsage("--shard: " + text + ": expected K/N with 1 <= K <= N");
+               shard = document::Shard{*index, *count, {}};
+             },
+             "Compute only part K of N: every Nth speed from the Kth on")
+          ->type_name("K/N");
+  const CLI::Option* merged = cli::add_repeated_option(
+      app, "--merge", "FILE",
+      "Put the chart together: the command of its parts with --merge FILE for each instead of --shard",
+      [this](const std::string& path) { paths.push_back(path); });
+  return {part, merged};
+}
+
+void PartOptions::take_part(const document::Json& of, document::LobesDocument& lobes) const {
+  if (!shard) return;
+  cli::refuse_if(
+      static_cast<std::size_t>(shard->count) > lobes.speed_rpm.size(),
+      "--shard: expected at most as many parts as speeds, " + std::to_string(lobes.speed_rpm.size()));
+  lobes.shard = shard;
+  lobes.shard->of = of;
+  lobes.speed_rpm = shard->part_of(lobes.speed_rpm);
+}
+
+}  // namespace stablecut

@@ -1,0 +1,89 @@
+// The options of sdm-lobes that belong together: the cut, the modes, what to run, parts of a chart.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/tool.h"
+#include "document/kinds/cut_json.h"
+#include "document/kinds/lobes_json.h"
+#include "milling/lobes.h"
+#include "milling/what_to_run.h"
+
+namespace stablecut {
+
+/// The cut: a document, or the options that stand in its place.
+class CutOptions {
+ public:
+  using Reader = std::function<document::Input(const std::string& path, cli::InputForm form)>;
+
+  std::string path;  ///< of --cut; empty where it is not given
+
+  /// Declares --teeth, --kt, --kr, --milling and --immersion; the object must stay where it is until they
+  /// have been parsed.
+  void declare(CLI::App& app);
+  /// Reads --cut, or makes the document of the options. Throws WrongUsage where both or neither are given or
+  /// an option's value is wrong, DataError for what a file holds.
+  void read(const Reader& read_input);
+
+  const document::CutDocument& cut() const { return cut_; }
+  /// The document with the chart that is computed in its place, without format and provenance.
+  document::Json as_used(const Range& speed_rpm, const Range& depth_mm) const;
+
+ private:
+  document::Json read_document(const Reader& read_input);
+
+  std::optional<int> teeth_;
+  std::optional<double> kt_, kr_, immersion_;
+  std::string milling_;
+  std::vector<CLI::Option*> declared_;
+  document::Source source_;
+  document::Json document_;
+  document::CutDocument cut_;
+};
+
+/// --modes: which modes of the table are used.
+class ModeOptions {
+ public:
+  void declare(CLI::App& app);
+  /// 1-based; empty: all.
+  std::vector<int> listed() const { return listed_.value_or(std::vector<int>{}); }
+  /// Indices in the table. Throws WrongUsage for one that it does not have.
+  std::vector<std::size_t> chosen(const dynamics::ModalModel& table, const std::string& name) const;
+  /// The table with the chosen modes only.
+  dynamics::ModalModel model(const dynamics::ModalModel& table, const std::string& name) const;
+  /// Gives crossings of a chart of the chosen modes their indices in the table.
+  void name_as_in_table(milling::StabilityChart& chart) const;
+
+ private:
+  std::optional<std::vector<int>> listed_;
+};
+
+/// What is asked of the best points.
+class RunOptions {
+ public:
+  void declare(CLI::App& app);
+  /// Throws WrongUsage where a limit needs a feed that the cut does not have.
+  milling::RunRequest request(const document::CutDocument& cut) const;
+
+ private:
+  std::optional<int> count_;
+  std::optional<double> depth_margin_, speed_margin_, largest_power_, largest_torque_;
+};
+
+/// A chart computed in parts.
+class PartOptions {
+ public:
+  std::optional<document::Shard> shard;  ///< of --shard
+  std::vector<std::string> paths;        ///< of --merge
+
+  /// The options, which do not change the result.
+  std::vector<const CLI::Option*> declare(CLI::App& app);
+  /// Leaves the part of --shard of the document's speeds; `of` is what it belongs to. Throws WrongUsage where
+  /// there are fewer speeds than parts.
+  void take_part(const document::Json& of, document::LobesDocument& lobes) const;
+};
+
+}  // namespace stablecut

@@ -1,0 +1,277 @@
+#include "milling/collocation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <utility>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "numerics/exponential_moments.h"
+#include "numerics/legendre.h"
+
+namespace stablecut::milling {
+namespace {
+
+using Complex = std::complex<double>;
+
+// Lengths of pieces that differ by less than this share of the period are equal.
+constexpr double kSameLength = 1e-12;
+// Kept off before the number of points is rounded up, so that pieces of one length have equally many.
+constexpr double kRoundingShare = 1e-6;
+// Points that a short piece has beside its share of the longest piece's.
+constexpr int kShortPiecePoints = 5;
+
+// The Gauss points of pieces of one length, and how a mode responds to a force through them.
+struct PieceRule {
+  double length_s;
+  numerics::GaussRule rule;
+  Eigen::MatrixXd transform;  // Legendre coefficients from values at the points
+
+  PieceRule(double length, int points)
+      : length_s(length),
+        rule(numerics::gauss_legendre(points)),
+        transform(numerics::legendre_transform(rule)) {}
+
+  // [points]: the modal coordinate at a place in [-1, 1] of the piece, per force value at the points.
+  Eigen::RowVectorXcd response(Complex lambda, double place) const {
+    const Eigen::VectorXcd moments =
+        numerics::exponential_moments(lambda * (length_s / 2), place, rule.node.size());
+    return (length_s / 2) * (moments.transpose() * transform);
+  }
+
+  // [points + 1 x points]: the same at each point and at the end.
+  Eigen::MatrixXcd responses(Complex lambda) const {
+    const Eigen::Index n = rule.node.size();
+    Eigen::MatrixXcd moments(n + 1, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      moments.row(i) = numerics::exponential_moments(lambda * (length_s / 2), rule.node[i], n).transpose();
+    moments.row(n) = numerics::exponential_moments(lambda * (length_s / 2), 1.0, n).transpose();
+    return (length_s / 2) * moments * transform;
+  }
+};
+
+// A piece with its place in time, its nodes and their rows.
+struct PlacedPiece {
+  double start_s, end_s;
+  std::size_t rule;  // index
+  std::size_t first_node, end_node;
+  Eigen::Index first_row, end_row;
+};
+
+// A collocation in the making; its public functions are called in their order.
+class Builder {
+ public:
+  Builder(const TipStructure& structure, const CutSchedule& schedule, double revolutions_per_s)
+      : structure_(structure),
+        schedule_(schedule),
+        angular_speed_(kTwoPi * revolutions_per_s),
+        period_s_(schedule.period_rad / angular_speed_) {}
+
+  // Gauss points on every piece, and what the force at them depends on.
+  void place_nodes(int points) {
+    double longest = 0;
+    for (const CutPiece& piece : schedule_.pieces) longest = std::max(longest, length_of(piece));
+    for (const CutPiece& piece : schedule_.pieces) {
+      const double length_s = length_of(piece) / angular_speed_;
+      const std::size_t at = rule_of(length_s, points_of(length_of(piece) / longest, points));
+      PlacedPiece placed{piece.from_rad / angular_speed_, 0, at, result_.nodes.size(), 0, row_count(), 0};
+      placed.end_s = placed.start_s + length_s;
+      const numerics::GaussRule& rule = rules_[at].rule;
+      for (Eigen::Index i = 0; i < rule.node.size(); ++i) {
+        const double share = (rule.node[i] + 1) / 2;
+        const double turn = piece.from_rad + share * length_of(piece);
+        result_.nodes.push_back(
+            {placed.start_s + share * length_s, rule.weight[i] / 2 * length_s, row_count(), {}});
+        add_rows(piece.cutting(turn), false);
+        if (piece.damping) add_rows(piece.damping(turn), true);
+      }
+      placed.end_node = result_.nodes.size();
+      placed.end_row = row_count();
+      pieces_.push_back(placed);
+    }
+  }
+
+  // Which row each displacement is compared with: that of the same node of the piece that cut the surface.
+  void link_surfaces() {
+    for (std::size_t p = 0; p < pieces_.size(); ++p) {
+      const PlacedPiece &piece = pieces_[p], &before = pieces_[schedule_.pieces[p].cut_by];
+      if (before.end_node - before.first_node != piece.end_node - piece.first_node)
+        throw InvalidArgument("a piece of the cut and the one that cut its surface differ in length");
+      for (Eigen::Index r = piece.first_row; r < piece.end_row; ++r) {
+        SensedRow& row = result_.rows[r];
+        if (row.is_velocity) continue;
+        row.cut_by = before.first_row + r - piece.first_row;
+        if (schedule_.pieces[p].in_period_before) row.remembered = result_.remembered_count++;
+      }
+    }
+  }
+
+  // What the rows sense of the structure, and where it is at the period's end: exact sums over the modes.
+  void add_responses() {
+    const Eigen::Index states = 2 * structure_.modes();
+    sensed_of_state_.resize(row_count(), states);
+    sensed_of_drive_ = Eigen::MatrixXd::Zero(row_count(), row_count());
+    result_.final_of_state = structure_.free_flight(period_s_);
+    result_.final_of_drive.resize(states, row_count());
+    std::vector<Eigen::MatrixXcd> responses;  // [rules]
+    for (Eigen::Index k = 0; k < structure_.modes(); ++k) {
+      const Complex lambda = structure_.lambda[k];
+      // Modes of one pole (those of a round tool in x and in y) respond alike.
+      if (k == 0 || lambda != structure_.lambda[k - 1]) {
+        responses.clear();
+        for (const PieceRule& rule : rules_) responses.push_back(rule.responses(lambda));
+      }
+      set_mode(k);
+      add_free_response(k);
+      for (const PlacedPiece& source : pieces_) {
+        add_forced_response(lambda, source, responses[source.rule]);
+        set_final_response(k, source, responses[source.rule]);
+      }
+      add_velocity_jumps(lambda);
+    }
+  }
+
+  // The rows sense a displacement less the one that their surface keeps. One that was left in this period is
+  // a response as well; what was left in the period before is remembered by the state.
+  Collocation subtract_left_in_period() {
+    result_.difference_of_state = sensed_of_state_;
+    result_.difference_of_drive = sensed_of_drive_;
+    for (Eigen::Index r = 0; r < row_count(); ++r) {
+      const SensedRow& row = result_.rows[r];
+      if (row.cut_by < 0 || row.remembered >= 0) continue;
+      result_.difference_of_state.row(r) -= sensed_of_state_.row(row.cut_by);
+      result_.difference_of_drive.row(r) -= sensed_of_drive_.row(row.cut_by);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  static double length_of(const CutPiece& piece) { return piece.to_rad - piece.from_rad; }
+  Eigen::Index row_count() const { return result_.rows.size(); }
+
+  static int points_of(double share_of_longest, int points) {
+    if (share_of_longest > 1 - kSameLength) return points;
+    const double share = std::ceil(share_of_longest * points - kRoundingShare);
+    return std::min(points, kShortPiecePoints + static_cast<int>(share));
+  }
+
+  std::size_t rule_of(double length_s, int points) {
+    const auto known = std::find_if(rules_.begin(), rules_.end(), [&](const PieceRule& other) {
+      return std::abs(other.length_s - length_s) < kSameLength * period_s_ &&
+             other.rule.node.size() == points;
+    });
+    if (known != rules_.end()) return known - rules_.begin();
+    rules_.emplace_back(length_s, points);
+    return rules_.size() - 1;
+  }
+
+  // Rows of the last node.
+  void add_rows(DirectionalFactors factors, bool of_velocity) {
+    if (structure_.directions() == 1 && factors.sense.rows() > 1) {
+      // A structure that moves in one direction senses one displacement.
+      factors.drive = factors.drive.col(structure_.axes[0]).eval();
+      factors.sense = factors.sense.row(structure_.axes[0]).eval();
+    }
+    Eigen::MatrixXd& drive = result_.nodes.back().drive;
+    const Eigen::Index before = drive.cols(), count = factors.drive.cols();
+    drive.conservativeResize(structure_.directions(), before + count);
+    drive.rightCols(count) = factors.drive(structure_.axes, Eigen::all);
+    for (Eigen::Index i = 0; i < count; ++i)
+      result_.rows.push_back(
+          {result_.nodes.size() - 1, factors.sense(i, structure_.axes), of_velocity, -1, -1});
+  }
+
+  // How the rows observe the mode, and how their forces drive it.
+  void set_mode(Eigen::Index k) {
+    observed_.resize(row_count());
+    driven_.resize(row_count());
+    for (Eigen::Index r = 0; r < row_count(); ++r) {
+      const SensedRow& row = result_.rows[r];
+      const CollocationNode& node = result_.nodes[row.node];
+      observed_[r] = 2.0 * (row.direction * structure_.psi_r.col(k)).value();
+      if (row.is_velocity) observed_[r] *= structure_.lambda[k];
+      driven_[r] = node.drive.col(r - node.first_row).transpose() * structure_.psi_l.col(k);
+    }
+  }
+
+  void add_free_response(Eigen::Index k) {
+    for (Eigen::Index r = 0; r < row_count(); ++r) {
+      const double time_s = result_.nodes[result_.rows[r].node].time_s;
+      const Complex value = std::exp(structure_.lambda[k] * time_s) * observed_[r];
+      sensed_of_state_(r, k) = value.real();
+      sensed_of_state_(r, structure_.modes() + k) = -value.imag();
+    }
+  }
+
+  // What all nodes that come after a piece begins sense of the force on it. `response` is that of its rule.
+  void add_forced_response(Complex lambda, const PlacedPiece& source, const Eigen::MatrixXcd& response) {
+    const Eigen::Index count = response.cols();
+    Eigen::RowVectorXcd at_node(count);
+    for (std::size_t i = 0; i < result_.nodes.size(); ++i) {
+      const CollocationNode& node = result_.nodes[i];
+      if (node.time_s <= source.start_s) continue;
+      if (i >= source.first_node && i < source.end_node) {
+        at_node = response.row(i - source.first_node);
+      } else if (node.time_s >= source.end_s) {
+        at_node = response.row(count) * std::exp(lambda * (node.time_s - source.end_s));
+      } else {
+        // A node of another tooth's piece inside this one (unequal pitch).
+        const double place = 2 * (node.time_s - source.start_s) / (source.end_s - source.start_s) - 1;
+        at_node = rules_[source.rule].response(lambda, place);
+      }
+      for (Eigen::Index row = node.first_row; row < node.end_row(); ++row) {
+        for (Eigen::Index column = source.first_row; column < source.end_row; ++column)
+          sensed_of_drive_(row, column) +=
+              (at_node[point_of(column, source)] * observed_[row] * driven_[column]).real();
+      }
+    }
+  }
+
+  void set_final_response(Eigen::Index k, const PlacedPiece& source, const Eigen::MatrixXcd& response) {
+    const Complex to_final = std::exp(structure_.lambda[k] * (period_s_ - source.end_s));
+    for (Eigen::Index column = source.first_row; column < source.end_row; ++column) {
+      const Complex state = to_final * response(response.cols(), point_of(column, source)) * driven_[column];
+      result_.final_of_drive(k, column) = state.real();
+      result_.final_of_drive(structure_.modes() + k, column) = state.imag();
+    }
+  }
+
+  // r' = 2 Re sum psi_r (lambda q + psi_l f): a force changes the velocity at once unless 2 Re sum psi_r
+  // psi_l is zero, which it is for a structure with mass and seldom for measured modes.
+  void add_velocity_jumps(Complex lambda) {
+    for (Eigen::Index r = 0; r < row_count(); ++r) {
+      const SensedRow& row = result_.rows[r];
+      if (!row.is_velocity) continue;
+      const CollocationNode& node = result_.nodes[row.node];
+      for (Eigen::Index column = node.first_row; column < node.end_row(); ++column)
+        sensed_of_drive_(r, column) += (observed_[r] / lambda * driven_[column]).real();
+    }
+  }
+
+  Eigen::Index point_of(Eigen::Index row, const PlacedPiece& piece) const {
+    return static_cast<Eigen::Index>(result_.rows[row].node - piece.first_node);
+  }
+
+  const TipStructure& structure_;
+  const CutSchedule& schedule_;
+  double angular_speed_, period_s_;
+  std::vector<PieceRule> rules_;
+  std::vector<PlacedPiece> pieces_;
+  Eigen::VectorXcd observed_, driven_;  // [rows], of one mode
+  Eigen::MatrixXd sensed_of_state_, sensed_of_drive_;
+  Collocation result_;
+};
+
+}  // namespace
+
+Collocation collocate(const TipStructure& structure, const CutSchedule& schedule, double revolutions_per_s,
+                      int points) {
+  Builder builder(structure, schedule, revolutions_per_s);
+  builder.place_nodes(points);
+  builder.link_surfaces();
+  builder.add_responses();
+  return builder.subtract_left_in_period();
+}
+
+}  // namespace stablecut::milling

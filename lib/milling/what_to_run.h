@@ -1,0 +1,48 @@
+// What to run, from a chart: the depth that is stable at every speed, and the best points. README.md, "What
+// to run".
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "milling/cutter.h"
+#include "milling/lobes.h"
+#include "milling/operating_points.h"
+#include "milling/structure.h"
+
+namespace stablecut::milling {
+
+/// The limit depth over the speed as a chart has it.
+struct LimitCurve {
+  std::vector<LimitPoint> points;  ///< by increasing speed
+  std::vector<int> resolution;     ///< as StabilityChart's, of each point
+  StabilityMethod method = StabilityMethod::kSpectral;
+  double largest_depth_m = 0;
+};
+LimitCurve limit_curve(const StabilityChart& chart, const std::vector<double>& revolutions_per_s,
+                       StabilityMethod method, double largest_depth_m);
+
+/// What is asked of the best points.
+struct RunRequest {
+  std::size_t count = 5;                   ///< points at most
+  double depth_share = 0.1;                ///< as OperatingLimits'
+  double speed_share = 0.02;               ///< as OperatingLimits'
+  std::optional<double> feed_per_tooth_m;  ///< needed for rates; then the cutter has a diameter
+  std::optional<double> largest_power_w, largest_torque_n_m;  ///< need the feed
+};
+
+struct WhatToRun {
+  std::optional<LimitPoint>
+      unconditional;                 ///< the lowest limit of all speeds; none: stable to the largest depth
+  OperatingLimits limits;            ///< that the best points keep
+  std::vector<OperatingPoint> best;  ///< best first
+  std::vector<CutRate> rates;        ///< of the best; empty without a feed
+};
+
+/// Limits between the curve's speeds are computed with as many points or intervals as the curve's speed below
+/// needed. The curve has at least one point.
+WhatToRun what_to_run(const TipStructure& structure, const Cutter& cutter, const LimitCurve& curve,
+                      const RunRequest& request, int threads);
+
+}  // namespace stablecut::milling
