@@ -118,9 +118,7 @@ class BestPose : public cli::Tool {
 
   robot::StiffnessTask stiffness_task() const {
     robot::StiffnessTask task;
-    if (index_ == "weakest") task.index = robot::StiffnessIndex::kWeakest;
-    if (index_ == "axial") task.index = robot::StiffnessIndex::kAxial;
-    if (index_ == "deflection") task.index = robot::StiffnessIndex::kDeflection;
+    if (!index_.empty()) task.index = &robot::stiffness_index(index_);
     if (force_) {
       task.force_n = Eigen::Vector3d(force_->data());
       if (task.force_n->isZero(0)) throw cli::WrongUsage("--force: 0,0,0: expected a force that is not zero");
@@ -128,8 +126,9 @@ class BestPose : public cli::Tool {
         throw cli::WrongUsage("--force: expected components below 1e9 N");
       }
     }
-    if (task.index == robot::StiffnessIndex::kDeflection && !force_) {
-      throw cli::WrongUsage("--force: missing: expected a force for the index deflection");
+    if (task.index->needs_force && !force_) {
+      throw cli::WrongUsage(std::string("--force: missing: expected a force for the index ") +
+                            task.index->name);
     }
     if (!force_frame_.empty() && !force_) throw cli::WrongUsage("--force-frame: expected with --force only");
     task.force_in_tool = force_frame_ == "tool";

@@ -27,7 +27,7 @@ class Refinement {
       if (!again || equal_scores(again->score, best->score)) break;
       best = again;
     }
-    if (!best || task_.stiffness.index != StiffnessIndex::kWeakest) return best;
+    if (!best || !task_.stiffness.index->has_ridge) return best;
     for (const double power : {30.0, 300.0, 3000.0}) {
       const auto smoothed = from(best->at, radius, power);
       if (smoothed && smoothed->score > best->score) best = smoothed;
@@ -85,7 +85,7 @@ class Refinement {
       const Eigen::Vector3d compliances = principal_compliances(evaluation->compliance);
       logarithm -= std::log((compliances / compliances[0]).cwiseMax(0.0).array().pow(power).sum()) / power;
     }
-    result.value = task_.stiffness.larger_is_better() ? logarithm : -logarithm;
+    result.value = task_.stiffness.index->larger_is_better ? logarithm : -logarithm;
     const bool away = task_.singularity_margin > 0;
     result.constraints.resize(kJoints + (away ? 1 : 0));
     for (int j = 0; j < kJoints; ++j) {

@@ -49,10 +49,10 @@ PoseReport report_pose(const Robot& robot, const JointAngles& angles, const Stif
     const double yielded = (compliance * axes.col(i)).norm();
     report.directional_stiffness[i] = yielded > rigid ? 1 / yielded : std::numeric_limits<double>::infinity();
   }
-  const bool all = task.index == StiffnessIndex::kCombined, axial = task.index == StiffnessIndex::kAxial;
-  if ((all && !report.directional_stiffness.allFinite()) ||
-      (axial && std::isinf(report.directional_stiffness[2]))) {
-    report.score = std::numeric_limits<double>::quiet_NaN();
+  for (int i = 0; i < 3; ++i) {
+    if (task.index->along[i] && std::isinf(report.directional_stiffness[i])) {
+      report.score = std::numeric_limits<double>::quiet_NaN();
+    }
   }
   report.limit_margin_rad = limit_margin_rad(robot, angles);
   report.singularity_margin = singularity_margin(pose);
@@ -74,7 +74,7 @@ PoseReport report_pose(const Robot& robot, const JointAngles& angles, const Stif
 
 double probability_better(const PoseReport& a, const PoseReport& b, const StiffnessTask& task,
                           const Matrix6d& covariance) {
-  const double lead = (a.score - b.score) * (task.larger_is_better() ? 1 : -1);
+  const double lead = (a.score - b.score) * (task.index->larger_is_better ? 1 : -1);
   const double spread = deviation(a.score_gradient - b.score_gradient, covariance);
   if (!(spread > 0)) return lead > 0 ? 1 : lead < 0 ? 0 : 0.5;
   return numerics::normal_cdf(lead / spread);

@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "robot/compliance.h"
 #include "robot/joint_stiffness.h"
+#include "robot/stiffness_index.h"
 
 namespace stablecut::robot {
 

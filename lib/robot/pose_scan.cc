@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "base/error.h"
 #include "base/units.h"
@@ -11,47 +12,6 @@ namespace stablecut::robot {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-// Scores by the lanes' compliances, without leaving the home frame.
-class ArmScores {
- public:
-  ArmScores(const StiffnessTask& task, const double compliance[6][kArms]) : task_(task), c_(compliance) {}
-
-  // `axes`: the tool's x, y, z; `force`: what acts, for kDeflection; both in the home frame.
-  void merits(const Eigen::Matrix3d& axes, const Eigen::Vector3d& force, double merit[kArms]) const {
-    switch (task_.index) {
-      case StiffnessIndex::kCombined:
-        for (int i = 0; i < kArms; ++i) {
-          merit[i] =
-              std::sqrt(1 / squared_displacement(axes.col(0), i) + 1 / squared_displacement(axes.col(1), i) +
-                        1 / squared_displacement(axes.col(2), i));
-        }
-        return;
-      case StiffnessIndex::kWeakest: {
-        largest_arm_compliances(c_, merit);
-        for (int i = 0; i < kArms; ++i) merit[i] = 1 / merit[i];
-        return;
-      }
-      case StiffnessIndex::kAxial:
-        for (int i = 0; i < kArms; ++i) merit[i] = 1 / std::sqrt(squared_displacement(axes.col(2), i));
-        return;
-      case StiffnessIndex::kDeflection:
-        for (int i = 0; i < kArms; ++i) merit[i] = -std::sqrt(squared_displacement(force, i));
-        return;
-    }
-  }
-
- private:
-  double squared_displacement(const Eigen::Ref<const Eigen::Vector3d>& f, int i) const {
-    const double x = c_[0][i] * f[0] + c_[1][i] * f[1] + c_[2][i] * f[2];
-    const double y = c_[1][i] * f[0] + c_[3][i] * f[1] + c_[4][i] * f[2];
-    const double z = c_[2][i] * f[0] + c_[4][i] * f[1] + c_[5][i] * f[2];
-    return x * x + y * y + z * z;
-  }
-
-  const StiffnessTask& task_;
-  const double (*c_)[kArms];
-};
 
 }  // namespace
 
@@ -65,8 +25,9 @@ std::optional<ScanBest> PointScan::best() const {
 
 PoseScanner::PoseScanner(const Robot& robot, const PoseTask& task)
     : robot_(robot), task_(task), inverse_(robot), coaxial_(tool_alignment(robot).coaxial()) {
-  if (task.stiffness.index == StiffnessIndex::kDeflection && !task.stiffness.force_n) {
-    throw InvalidArgument("force: missing: expected a force for the index deflection");
+  if (task.stiffness.index->needs_force && !task.stiffness.force_n) {
+    throw InvalidArgument(std::string("force: missing: expected a force for the index ") +
+                          task.stiffness.index->name);
   }
   const double along = robot.tool_in_frame6().linear()(2, 2) > 0 ? 1 : -1;
   turn_sense_ = along * robot.joints[5].theta_sign;
@@ -97,7 +58,10 @@ void PoseScanner::visit(double x, double y, PointScan& result, const Use& use) c
   double compliance[6][kArms], merit[kArms] = {};
   const auto score = [&](const Sample& sample) {
     if (stiffness.force_n && stiffness.force_in_tool) force = sample.axes * *stiffness.force_n;
-    ArmScores(stiffness, compliance).merits(sample.axes, force, merit);
+    stiffness.index->arm_scores(compliance, sample.axes, force, merit);
+    if (!stiffness.index->larger_is_better) {
+      for (double& m : merit) m = -m;
+    }
   };
   const auto offer = [&](double margin, int sample, int branch) {
     if (margin > result.best_limit_margin_rad) {
@@ -140,7 +104,7 @@ void PoseScanner::visit(double x, double y, PointScan& result, const Use& use) c
   score(samples_.front());
   for (int i = 0; i < count; ++i) {
     const Sample& sample = samples_[i];
-    if (i > 0 && !stiffness.blind_to_tool_turn()) score(sample);
+    if (i > 0 && stiffness.feels_tool_turn()) score(sample);
     for (int b = 0; b < kBranches; ++b) {
       double q6 = lanes.angle[5][b] + turn_sense_ * (sample.turn - samples_.front().turn);
       q6 += kTwoPi * std::nearbyint((k.middle[5] - q6) / kTwoPi);

@@ -48,7 +48,7 @@ class PoseScanner {
   const PoseTask& task() const { return task_; }
   /// False when turning the tool about its axis cannot change the score: tool coaxial with joint 6, index
   /// blind to it.
-  bool redundancy_matters() const { return !(coaxial_ && task_.stiffness.blind_to_tool_turn()); }
+  bool redundancy_matters() const { return !coaxial_ || task_.stiffness.feels_tool_turn(); }
 
   /// Sense of controller angle 6 against the redundancy angle, for a coaxial tool.
   double turn_sense() const { return turn_sense_; }

@@ -190,7 +190,7 @@ PoseSearch search_poses(const Robot& robot, const PoseTask& task, int most_alter
     if (symmetry.base_turn || symmetry.tool_turn) found.back() = centred(scanner, found.back(), symmetry);
   }
   if (found.empty()) nothing_allowed(scanner, *known);
-  const bool larger = task.stiffness.larger_is_better();
+  const bool larger = task.stiffness.index->larger_is_better;
   std::stable_sort(found.begin(), found.end(), [&](const FoundPose& a, const FoundPose& b) {
     return larger ? a.score > b.score : a.score < b.score;
   });

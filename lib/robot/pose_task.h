@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 
 #include "base/range.h"
-#include "robot/compliance.h"
 #include "robot/robot.h"
+#include "robot/stiffness_index.h"
 
 namespace stablecut::robot {
 
