@@ -134,10 +134,23 @@ TEST_CASE("what the loads can see: 2, 4, 5 and 6 joints, each named; exact data 
   verdict({all_ways, {kDown}, off, off}, "-23456", 5);
 }
 
-TEST_CASE("nothing identifiable is no answer") {
+TEST_CASE("without a load no joint is seen") {
   const Robot robot = kr360();
-  Setup setup{{JointAngles::Zero()}, {Eigen::Vector3d::Zero()}};
-  CHECK_THROWS_AS(identify_stiffness(robot, samples_of(robot, setup), {}), NoAnswer);
+  const Setup setup{{JointAngles::Zero()}, {Eigen::Vector3d::Zero()}};
+  const Identification found = identify_stiffness(robot, samples_of(robot, setup), {});
+  CHECK_FALSE(found.any_identified());
+  for (const JointVerdict verdict : found.verdict) CHECK(verdict == JointVerdict::kUnseen);
+}
+
+TEST_CASE("deflections of the wrong sign move against their loads and identify nothing") {
+  const Robot robot = kr360();
+  auto samples = samples_of(robot, {random_poses(robot, 8, 15), kThreeLoads});
+  CHECK_FALSE(identify_stiffness(robot, samples, {}).moved_against_loads);
+  for (LoadSample& sample : samples) sample.deflection_m *= -1;
+  const Identification found = identify_stiffness(robot, samples, {});
+  CHECK(found.moved_against_loads);
+  CHECK_FALSE(found.any_identified());
+  for (const double compliance : found.compliance) CHECK(compliance == 0);
 }
 
 TEST_CASE("one sample cannot tell joints apart, and says so") {
@@ -146,8 +159,10 @@ TEST_CASE("one sample cannot tell joints apart, and says so") {
   const auto samples = samples_of(robot, setup);
   IdentificationOptions only_z;
   only_z.components = {false, false, true};
-  CHECK_THROWS_WITH(identify_stiffness(robot, samples, only_z),
-                    Catch::Contains("A2 cannot be told from others"));
+  const Identification found = identify_stiffness(robot, samples, only_z);
+  CHECK(found.rank == 1);
+  CHECK(found.verdict[1] == JointVerdict::kInseparable);
+  CHECK_FALSE(found.any_identified());
 }
 
 TEST_CASE("95 % intervals hold the truth in 93 to 97 % of all joints and 500 runs") {
@@ -196,24 +211,32 @@ TEST_CASE("95 % intervals hold the truth in 93 to 97 % of all joints and 500 run
   }
 }
 
-TEST_CASE("the robust loss with next to nothing claims nothing") {
+TEST_CASE("the robust loss with nine numbers for five unknowns still gives honest intervals") {
   const Robot robot = kr360();
   const IdentificationOptions huber{true, {true, true, true}};
-  // One or two samples with noise: intervals as wide as they are by least squares.
+  int inside = 0, all = 0, runs_reweighted = 0;
   std::mt19937_64 generator(53);
-  auto two = samples_of(robot, {random_poses(robot, 1, 3), {{600, 0, 0}, {0, 0, -600}}});
-  add_noise(two, 20e-6, 0, generator);
-  const auto width = [&](const IdentificationOptions& options) {
-    try {
-      const Identification found = identify_stiffness(robot, two, options);
-      return found.high[1] - found.low[1];
-    } catch (const NoAnswer&) {
-      return 1.0;
+  for (int run = 0; run < 400; ++run) {
+    auto samples = samples_of(robot, {random_poses(robot, 1, 300 + run), kThreeLoads});
+    add_noise(samples, 20e-6, 0, generator);
+    const Identification by_squares = identify_stiffness(robot, samples, {}),
+                         found = identify_stiffness(robot, samples, huber);
+    runs_reweighted += found.residual_rms_m != by_squares.residual_rms_m;
+    for (int j = 0; j < kJoints; ++j) {
+      if (!found.identified(j)) continue;
+      const double c = 1 / k_theta_2d()[j];
+      inside += found.low[j] <= c && c <= found.high[j];
+      ++all;
     }
-  };
-  CHECK(width(huber) >= 0.5 * width({}));
-  for (LoadSample& sample : two) sample.force_n.setZero();
-  CHECK_THROWS_AS(identify_stiffness(robot, two, huber), NoAnswer);
+  }
+  CHECK(runs_reweighted > 50);  // else this is a test of least squares
+  CHECK(all > 1000);
+  // 95 % by Huber's asymptotic covariance, which so few numbers do not reach: 91 to 95 % over five seeds.
+  CHECK(static_cast<double>(inside) / all > 0.90);
+  CHECK(static_cast<double>(inside) / all < 0.97);
+  // With no load there is nothing to see for either loss.
+  auto unloaded = samples_of(robot, {random_poses(robot, 1, 3), {Eigen::Vector3d::Zero()}});
+  CHECK_FALSE(identify_stiffness(robot, unloaded, huber).any_identified());
 }
 
 TEST_CASE("stated deviations that are too small leave intervals to the residuals") {
@@ -299,11 +322,11 @@ TEST_CASE("cross-validation is what leaving out does") {
     const ComplianceEquations left = compliance_equations(robot, {samples[i]}, {true, true, true});
     sum += (left.b - left.a * without.compliance).squaredNorm();
   }
-  REQUIRE(found.cross_validation_rms_m);
-  CHECK(*found.cross_validation_rms_m ==
+  REQUIRE(found.cross_validation.rms_m);
+  CHECK(*found.cross_validation.rms_m ==
         Approx(std::sqrt(sum / (3.0 * static_cast<double>(samples.size())))).epsilon(1e-9));
-  CHECK(found.samples_not_predicted == 0);
-  CHECK(found.residual_rms_m < *found.cross_validation_rms_m);
+  CHECK(found.cross_validation.samples_not_predicted == 0);
+  CHECK(found.residual_rms_m < *found.cross_validation.rms_m);
 }
 
 TEST_CASE("stated deviations that are too small are noticed") {

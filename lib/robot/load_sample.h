@@ -40,4 +40,11 @@ struct ComplianceEquations {
 ComplianceEquations compliance_equations(const Robot& robot, const std::vector<LoadSample>& samples,
                                          const std::array<bool, 3>& components);
 
+/// Length of the largest measured deflection, m.
+double largest_deflection(const std::vector<LoadSample>& samples);
+
+/// False for a largest deflection, m, that no robot shows under a test load: most often a wrong unit. None at
+/// all (0) is plausible.
+bool plausible_deflection(double largest_m);
+
 }  // namespace stablecut::robot
