@@ -272,16 +272,46 @@ TEST_CASE("a thrust along a coaxial tool does not feel its turn, a force across 
 
 TEST_CASE("no pose, and why") {
   const Robot robot = kr360();
+  const auto obstacle = [&](const PoseTask& task) {
+    try {
+      search_poses(robot, task, 5, 1);
+    } catch (const NoPose& none) {
+      return none.obstacle();
+    }
+    FAIL("a pose was found");
+    return Obstacle{};
+  };
   PoseTask task = tool_down(robot, 1.6, "combined", 2);
   task.x = {3, 3.2, 5};
-  CHECK_THROWS_WITH(search_poses(robot, task, 5, 1), Catch::Contains("reach"));
+  CHECK(obstacle(task).kind == Obstacle::Kind::kOutOfReach);
   task.x = {0, 0.3, 5};
   task.y = {-0.1, 0.1, 3};
-  CHECK_THROWS_WITH(search_poses(robot, task, 5, 1), Catch::Contains("joint A") && Catch::Contains("limit"));
+  const Obstacle limit = obstacle(task);
+  CHECK(limit.kind == Obstacle::Kind::kJointLimit);
+  // The least violation by brute force, on the grid that the search makes of such short intervals.
+  double least = -9;
+  int joint = -1;
+  const InverseKinematics inverse(robot);
+  for (const double x : Range{0, 0.3, 25}.values()) {
+    for (const double y : Range{-0.1, 0.1, 25}.values()) {
+      for (const double turn : task.redundancy.values()) {
+        for (const auto& s : inverse.solve(tool_frame(task.plane.at(x, y), task.tool_axis, turn))) {
+          if (s.limit_margin_rad <= least) continue;
+          least = s.limit_margin_rad;
+          for (int j = 0; j < kJoints; ++j) {
+            if (robot.joints[j].margin_rad(s.angles[j]) == least) joint = j;
+          }
+        }
+      }
+    }
+  }
+  CHECK(least < 0);
+  CHECK(limit.joint == joint);
+  CHECK(limit.margin_rad == Approx(least).margin(1e-9));
   task = tool_down(robot, 1.6, "combined", 2);
   task.singularity_margin = 0.9;
-  CHECK_THROWS_WITH(search_poses(robot, task, 5, 1), Catch::Contains("singularity"));
+  CHECK(obstacle(task).kind == Obstacle::Kind::kSingularity);
+  CHECK_THROWS_AS(plane_reach(robot, {{0, 0, 9}, {1, 0, 0}, {0, 1, 0}}, task.tool_axis), NoPose);
   task.stiffness = {&stiffness_index("deflection"), {}, false};
   CHECK_THROWS_AS(search_poses(robot, task, 5, 1), InvalidArgument);
-  CHECK_THROWS_AS(plane_reach(robot, {{0, 0, 9}, {1, 0, 0}, {0, 1, 0}}, task.tool_axis), NoAnswer);
 }
