@@ -9,15 +9,17 @@
 namespace stablecut::robot {
 namespace {
 
+constexpr double kGradientStep = 1e-5;  // of a compliance
+constexpr double kRigid = 1e-12;        // of the largest principal compliance: below, rounding
+
 // d value(C) / d c_j by central differences; C is linear in the compliances.
 template <typename Value>
 JointAngles gradient(const RobotPose& pose, const JointAngles& joint_compliance, const Value& value) {
-  constexpr double kStep = 1e-5;  // relative
   const auto columns = translational_jacobian(pose, pose.tool.translation());
   const Eigen::Matrix3d compliance = translational_compliance(pose, joint_compliance);
   JointAngles result;
   for (int j = 0; j < kJoints; ++j) {
-    const double step = kStep * joint_compliance[j];
+    const double step = kGradientStep * joint_compliance[j];
     const Eigen::Matrix3d change = step * columns.col(j) * columns.col(j).transpose();
     result[j] = (value(compliance + change) - value(compliance - change)) / (2 * step);
   }
@@ -42,7 +44,7 @@ PoseReport report_pose(const Robot& robot, const JointAngles& angles, const Stif
   report.score = stiffness_score(compliance, axes, task);
   report.principal_compliance = principal_compliances(compliance);
   // Rounding leaves about 1e-16 of the compliance where the arm cannot yield at all.
-  const double rigid = 1e-12 * report.principal_compliance[0];
+  const double rigid = kRigid * report.principal_compliance[0];
   report.principal_compliance =
       (report.principal_compliance.array() > rigid).select(report.principal_compliance, 0.0);
   for (int i = 0; i < 3; ++i) {

@@ -19,13 +19,20 @@ bool has_family(const PoseSearch& search, PoseFamily::Kind kind) {
                      [&](const auto& f) { return f.kind == kind; });
 }
 
-// The pose is what the search says: angles, point, axis, score, limits.
+bool inside(const Range& range, double value) { return value >= range.from && value <= range.to; }
+
+// The pose is what the search says (angles, point, axis, score) and holds intervals, limits and margins.
+// Forward and inverse kinematics agree to 1e-11 where the singularity margin is kept.
 void check_pose(const Robot& robot, const PoseTask& task, const FoundPose& found) {
   const RobotPose pose = robot_pose(robot, found.angles);
   CHECK((pose.tool.translation() - task.plane.at(found.at.x, found.at.y)).norm() < 1e-11);
   CHECK((pose.tool.linear().col(2) - task.tool_axis).norm() < 1e-11);
   CHECK(std::abs(std::remainder(redundancy_angle(pose.tool) - found.at.redundancy, kTwoPi)) < 1e-9);
   CHECK(limit_margin_rad(robot, found.angles) >= task.limit_margin_rad);
+  CHECK(singularity_margin(pose) >= task.singularity_margin);
+  CHECK(inside(task.x, found.at.x));
+  CHECK(inside(task.y, found.at.y));
+  if (!task.full_turn()) CHECK(inside(task.redundancy, found.at.redundancy));
   const Eigen::Matrix3d compliance = translational_compliance(pose, task.joint_compliance);
   CHECK(stiffness_score(compliance, pose.tool.linear(), task.stiffness) ==
         Approx(found.score).epsilon(1e-10));
@@ -64,6 +71,8 @@ TEST_CASE("tool-down optima of the KR360, to 0.1 %, on limits and inside") {
     CHECK(has_family(search, PoseFamily::Kind::kFlippedWrist));
     CHECK(search.redundancy_matters == (c.index == std::string("combined")));
     CHECK(has_family(search, PoseFamily::Kind::kToolTurn) == !search.redundancy_matters);
+    // The other elbow or the shoulder over the back reaches the plane too, with an optimum of its own.
+    CHECK_FALSE(search.alternatives.empty());
     for (const FoundPose& other : search.alternatives) {
       check_pose(robot, task, other);
       CHECK((task.stiffness.index->larger_is_better ? other.score < search.best.score
@@ -100,6 +109,27 @@ TEST_CASE("the limit margin is kept, and the optimum lies on it") {
   check_pose(robot, task, search.best);
   CHECK(degrees_from_radians(search.best.angles[1]) == Approx(-125).margin(1e-6));
   CHECK(search.alternatives.empty());
+}
+
+TEST_CASE("the flipped wrist is the same tool frame, and listed only where the limits allow it") {
+  Robot robot = kr360();
+  const PoseTask task = tool_down(robot, 1.6, "weakest", 2);
+  const PoseSearch search = search_poses(robot, task, 0, 2);
+  REQUIRE(has_family(search, PoseFamily::Kind::kFlippedWrist));
+  for (const PoseFamily& family : search.families) {
+    if (family.kind != PoseFamily::Kind::kFlippedWrist) continue;
+    CHECK(limit_margin_rad(robot, family.angles) >= task.limit_margin_rad);
+    CHECK(family.angles[4] == Approx(-search.best.angles[4]).epsilon(1e-9));
+    CHECK(
+        (robot_pose(robot, family.angles).tool.matrix() - robot_pose(robot, search.best.angles).tool.matrix())
+            .norm() < 1e-11);
+  }
+  // A wrist that bends one way only.
+  robot.joints[4].max_rad = 0;
+  const PoseSearch one_way = search_poses(robot, task, 0, 2);
+  check_pose(robot, task, one_way.best);
+  CHECK(one_way.best.score == Approx(search.best.score).epsilon(1e-6));
+  CHECK_FALSE(has_family(one_way, PoseFamily::Kind::kFlippedWrist));
 }
 
 TEST_CASE("an offset tool: the redundancy angle matters by what brute force says") {
@@ -221,11 +251,14 @@ TEST_CASE("a map does not depend on the number of threads, and the search is not
                 two = pose_map(robot, scan_plane(robot, task, 2));
   CHECK(one.branch == two.branch);
   double best = 0;
+  int reached = 0;
   for (Eigen::Index k = 0; k < one.score.size(); ++k) {
     if (one.branch.data()[k] < 0) continue;
     CHECK(one.score.data()[k] == two.score.data()[k]);
     best = std::max(best, one.score.data()[k]);
+    ++reached;
   }
+  CHECK(reached > 300);  // of 625
   CHECK(search_poses(robot, task, 5, 2).best.score >= best);
 }
 
