@@ -90,7 +90,7 @@ check_jq "a plan" plan.json '(.samples | length) == 6 and .rank == 5 and .std_n_
   (.std_n_m_per_rad[0:5] | all(. > 0))'
 joint-stiffness --robot offset.json --plan 12 --load 500,0,0 --load 0,0,-500 --std-mm 0.01 poses.json -o plan.json
 check_jq "a plan with its own loads" plan.json '([.samples[].force_n] | unique | length) <= 2 and .rank == 6'
-refused 1 'too few samples: 1 cannot tell' joint-stiffness --robot "$robot" --plan 1 --quiet poses.json
+refused 1 'too few measurements: 1 cannot tell the 5 joints apart' joint-stiffness --robot "$robot" --plan 1 --quiet poses.json
 joint-stiffness --robot "$robot" --plan 12 --load-point 150,50,210 --measuring-point 150,50,210 poses.json -o plan.json
 check_jq "a plan with points off the axis sees joint 6" plan.json '.rank == 6 and (.identifiable | all)'
 refused 64 '^joint-stiffness: --from, --loss: expected without --plan' joint-stiffness --robot "$robot" --plan 3 --loss huber poses.json

@@ -10,6 +10,7 @@ namespace stablecut::robot {
 namespace {
 
 using Four = numerics::FourLanes;
+using Mask = decltype(Four{} < Four{});
 using numerics::absolute;
 using numerics::angle_of;
 using numerics::least;
@@ -18,6 +19,7 @@ using numerics::square_root;
 constexpr double kReachTolerance = 1e-12;  // relative
 constexpr double kFreeRadius = 1e-10;      // m: nearer to axis 1 than this, joint 1 is free
 constexpr double kFreeSine = 1e-11;        // axes 4 and 6 nearer in line than this: joint 4 is free
+constexpr double kFolded = 1e-40;          // m^4: a wrist centre nearer to axis 2 leaves joint 2 free
 
 STABLECUT_INLINE Four load(const double* from) { return numerics::load_lanes<Four>(from); }
 STABLECUT_INLINE void store(const Four& v, double* to) { numerics::store_lanes(v, to); }
@@ -32,28 +34,42 @@ STABLECUT_INLINE Four joint_margin(const ArmConstants& robot, int joint, const F
   return robot.half_range[joint] - absolute(angle - robot.middle[joint]);
 }
 
-}  // namespace
+// The steps of solve_arms, in the order of README.md, "Inverse kinematics". They are always inlined: each
+// version that is built for a processor has its own copy of them.
 
-STABLECUT_WIDE void solve_arms(const ArmConstants& robot, const ArmTarget& target, ArmLanes& out) {
-  const ArmConstants k = robot;
-  // The target in the home frame.
-  const auto home = [&k](const double v[3], double w[3]) {
+// What has to be reached, in the home frame: the tool-side frame's axes x6 and z6, and the wrist centre.
+struct HomeTarget {
+  double x6[3], z6[3], wrist[3];
+};
+
+STABLECUT_INLINE HomeTarget target_in_home(const ArmConstants& k, const ArmTarget& target) {
+  const auto turned = [&k](const double v[3], double w[3]) {
     w[0] = v[0];
     w[1] = k.cos_alpha0 * v[1] + k.sin_alpha0 * v[2];
     w[2] = k.cos_alpha0 * v[2] - k.sin_alpha0 * v[1];
   };
-  double x6[3], z6[3], p6[3];
-  home(target.x, x6);
-  home(target.z, z6);
-  home(target.origin, p6);
+  HomeTarget home;
+  double p6[3];
+  turned(target.x, home.x6);
+  turned(target.z, home.z6);
+  turned(target.origin, p6);
   p6[0] -= k.a0;
   p6[2] -= k.d1;
-  const double wx = p6[0] - k.d6 * z6[0], wy = p6[1] - k.d6 * z6[1], wz = p6[2] - k.d6 * z6[2];
-  for (int i = 0; i < 3; ++i) out.axis6[i] = z6[i];
-  out.wrist[0] = wx;
-  out.wrist[1] = wy;
-  out.wrist[2] = wz;
+  for (int i = 0; i < 3; ++i) home.wrist[i] = p6[i] - k.d6 * home.z6[i];
+  return home;
+}
 
+// Joint 1, and the wrist centre (x1, v) from it in the plane of the arm: x1 along x of frame 1, v square to
+// x1 and to axis 2.
+struct Shoulder {
+  bool reaches;
+  Four c1, s1;
+  Four x1;
+  double v;
+};
+
+STABLECUT_INLINE Shoulder solve_shoulder(const ArmConstants& k, const double wrist[3]) {
+  const double wx = wrist[0], wy = wrist[1], wz = wrist[2];
   // Joint 1 turns the wrist centre into the plane that lies along_axis2 from axis 1:
   // z2 . wrist = -sin(alpha1) y1 + cos(alpha1) z = along_axis2, with (x1, y1) in frame 1.
   const double radius2 = wx * wx + wy * wy;
@@ -62,79 +78,123 @@ STABLECUT_WIDE void solve_arms(const ArmConstants& robot, const ArmTarget& targe
   const bool on_axis1 = radius2 < kFreeRadius * kFreeRadius;
   const double per_radius2 = on_axis1 ? 0 : 1 / radius2;
   const double free_c1 = on_axis1 ? k.cos_free1 : 0, free_s1 = on_axis1 ? k.sin_free1 : 0;
-  const bool shoulder_reaches = x1_squared >= -kReachTolerance * (radius2 + k.forearm * k.forearm);
   const double x1_size = std::sqrt(x1_squared > 0 ? x1_squared : 0);
-  const double v = k.cos_alpha1 * y1 + k.sin_alpha1 * wz;
-  const double sum2 = k.a2 * k.a2 + k.forearm * k.forearm, per_2al = 0.5 / (k.a2 * k.forearm);
-  const double wrist45 = k.wrist4 * k.wrist5;
-  const Four front = {1, 1, -1, -1}, side = {1, -1, 1, -1};
-  const Four zero = {}, one = zero + 1;
+  const Four front = {1, 1, -1, -1};
+  Shoulder shoulder;
+  shoulder.reaches = x1_squared >= -kReachTolerance * (radius2 + k.forearm * k.forearm);
+  shoulder.x1 = front * x1_size;
+  shoulder.c1 = (wx * shoulder.x1 + wy * y1) * per_radius2 + free_c1;
+  shoulder.s1 = (wy * shoulder.x1 - wx * y1) * per_radius2 + free_s1;
+  shoulder.v = k.cos_alpha1 * y1 + k.sin_alpha1 * wz;
+  return shoulder;
+}
 
-  // Shoulder.
-  const Four x1 = front * x1_size;
-  const Four c1 = (wx * x1 + wy * y1) * per_radius2 + free_c1;
-  const Four s1 = (wy * x1 - wx * y1) * per_radius2 + free_s1;
-  // The planar pair: u + i v = exp(i theta2) (a2 + forearm exp(i bent)).
-  const Four u = x1 - k.a1;
+// Joints 2 and 3 as a planar pair of links: u + i v = exp(i theta2) (a2 + forearm exp(i bent)), with u
+// counted from axis 2. A bent of 0 is a stretched arm.
+struct Elbow {
+  Mask reaches;
+  Four c2, s2;
+  Four cp, sp;    // of theta3 in the sense of axis 2
+  Four c23, s23;  // of theta2 + theta3 in that sense
+};
+
+STABLECUT_INLINE Elbow solve_elbow(const ArmConstants& k, const Shoulder& shoulder) {
+  const double sum2 = k.a2 * k.a2 + k.forearm * k.forearm, per_2al = 0.5 / (k.a2 * k.forearm);
+  const Four side = {1, -1, 1, -1};
+  const Four zero = {}, one = zero + 1;
+  const Four u = shoulder.x1 - k.a1;
+  const double v = shoulder.v;
   const Four reach2 = u * u + v * v;
   const Four cos_bent_raw = (reach2 - sum2) * per_2al;
-  const auto bends = absolute(cos_bent_raw) <= 1 + kReachTolerance;
-  if (!shoulder_reaches || !(bends[0] || bends[2])) {  // the elbow's side does not matter here
-    const double sixth[3] = {z6[0], z6[1], z6[2]}, wrist[3] = {wx, wy, wz};
-    out = ArmLanes{};
-    for (int i = 0; i < 3; ++i) {
-      out.axis6[i] = sixth[i];
-      out.wrist[i] = wrist[i];
-    }
-    for (double& margin : out.limit_margin) margin = -std::numeric_limits<double>::infinity();
-    return;
-  }
+  Elbow elbow;
+  elbow.reaches = absolute(cos_bent_raw) <= 1 + kReachTolerance;
   const Four cb = least(numerics::largest(cos_bent_raw, Four{} - 1), Four{} + 1);
   const Four sb = side * square_root((1 - cb) * (1 + cb));
   const Four tx = k.a2 + k.forearm * cb, ty = k.forearm * sb;
   const Four size2 = reach2 * (tx * tx + ty * ty);
-  const auto opened = size2 > 1e-40;
+  const auto opened = size2 > kFolded;
   const Four per_size = 1 / square_root(opened ? size2 : one);
-  const Four c2 = opened ? (u * tx + v * ty) * per_size : one;
-  const Four s2 = opened ? (v * tx - u * ty) * per_size : zero;
-  const Four cp = cb * k.cos_bend + sb * k.sin_bend, sp = sb * k.cos_bend - cb * k.sin_bend;
-  const Four c23 = c2 * cp - s2 * sp, s23 = s2 * cp + c2 * sp;
-  // Axes of frame 3 turned by alpha3: m4x, m4y, m4z; m4z is axis 4.
-  const Four f1yx = -s1 * k.cos_alpha1, f1yy = c1 * k.cos_alpha1, f1yz = zero + k.sin_alpha1;
-  const Four f1zx = s1 * k.sin_alpha1, f1zy = -c1 * k.sin_alpha1, f1zz = zero + k.cos_alpha1;
-  const Four exx = c23 * c1 + s23 * f1yx, exy = c23 * s1 + s23 * f1yy, exz = s23 * f1yz;
-  const Four eyx = c23 * f1yx - s23 * c1, eyy = c23 * f1yy - s23 * s1, eyz = c23 * f1yz;
-  const Four ax = k.cos_alpha3 * eyx + k.sin_alpha3 * f1zx, ay = k.cos_alpha3 * eyy + k.sin_alpha3 * f1zy,
-             az = k.cos_alpha3 * eyz + k.sin_alpha3 * f1zz;
-  const Four bx = k.cos_alpha3 * f1zx - k.sin_alpha3 * eyx, by = k.cos_alpha3 * f1zy - k.sin_alpha3 * eyy,
-             bz = k.cos_alpha3 * f1zz - k.sin_alpha3 * eyz;
-  // M = Rz(theta4) Rx(alpha4) Rz(theta5) Rx(alpha5) Rz(theta6), its first and third columns.
-  const Four m11 = exx * x6[0] + exy * x6[1] + exz * x6[2], m21 = ax * x6[0] + ay * x6[1] + az * x6[2],
-             m31 = bx * x6[0] + by * x6[1] + bz * x6[2];
-  const Four m13 = exx * z6[0] + exy * z6[1] + exz * z6[2], m23 = ax * z6[0] + ay * z6[1] + az * z6[2],
-             m33 = bx * z6[0] + by * z6[1] + bz * z6[2];
-  // m13 = c4 s5 wrist5, m23 = s4 s5 wrist5, m33 = -wrist45 c5; here with s5 >= 0.
-  const Four s5 = square_root(m13 * m13 + m23 * m23), c5 = -wrist45 * m33;
-  const auto in_line = s5 < kFreeSine;
-  const Four per_s5 = k.wrist5 / (in_line ? one : s5);
-  const Four c4 = in_line ? zero + k.cos_free4 : m13 * per_s5,
-             s4 = in_line ? zero + k.sin_free4 : m23 * per_s5;
-  // theta6 from what is left after theta4 and theta5: well conditioned in every pose.
-  const Four lx = c4 * m11 + s4 * m21, ly = c4 * m21 - s4 * m11;
-  const Four c6 = c5 * lx + k.wrist4 * s5 * m31, s6 = -wrist45 * ly;
+  elbow.c2 = opened ? (u * tx + v * ty) * per_size : one;
+  elbow.s2 = opened ? (v * tx - u * ty) * per_size : zero;
+  elbow.cp = cb * k.cos_bend + sb * k.sin_bend;
+  elbow.sp = sb * k.cos_bend - cb * k.sin_bend;
+  elbow.c23 = elbow.c2 * elbow.cp - elbow.s2 * elbow.sp;
+  elbow.s23 = elbow.s2 * elbow.cp + elbow.c2 * elbow.sp;
+  return elbow;
+}
 
-  const Four theta4 = angle_of(s4, c4), theta5 = angle_of(s5, c5), theta6 = angle_of(s6, c6);
-  const Four arm_angles[3] = {controller_angle(k, 0, angle_of(s1, c1)),
-                              controller_angle(k, 1, angle_of(s2, c2)),
-                              controller_angle(k, 2, angle_of(k.elbow_sense * sp, cp))};
+// The frames that shoulder and elbow leave, in the home frame: y and z of frame 1 turned by alpha1 (z is axis
+// 2), and frame 3 turned by alpha3, with columns e, a and b (b is axis 4).
+struct ForearmAxes {
+  Four f1yx, f1yy, f1yz, f1zx, f1zy, f1zz;
+  Four ex, ey, ez, ax, ay, az, bx, by, bz;
+};
+
+STABLECUT_INLINE ForearmAxes forearm_axes(const ArmConstants& k, const Shoulder& shoulder,
+                                          const Elbow& elbow) {
+  const Four zero = {};
+  const Four c1 = shoulder.c1, s1 = shoulder.s1, c23 = elbow.c23, s23 = elbow.s23;
+  ForearmAxes m;
+  m.f1yx = -s1 * k.cos_alpha1, m.f1yy = c1 * k.cos_alpha1, m.f1yz = zero + k.sin_alpha1;
+  m.f1zx = s1 * k.sin_alpha1, m.f1zy = -c1 * k.sin_alpha1, m.f1zz = zero + k.cos_alpha1;
+  m.ex = c23 * c1 + s23 * m.f1yx, m.ey = c23 * s1 + s23 * m.f1yy, m.ez = s23 * m.f1yz;
+  const Four y3x = c23 * m.f1yx - s23 * c1, y3y = c23 * m.f1yy - s23 * s1, y3z = c23 * m.f1yz;
+  m.ax = k.cos_alpha3 * y3x + k.sin_alpha3 * m.f1zx, m.ay = k.cos_alpha3 * y3y + k.sin_alpha3 * m.f1zy,
+  m.az = k.cos_alpha3 * y3z + k.sin_alpha3 * m.f1zz;
+  m.bx = k.cos_alpha3 * m.f1zx - k.sin_alpha3 * y3x, m.by = k.cos_alpha3 * m.f1zy - k.sin_alpha3 * y3y,
+  m.bz = k.cos_alpha3 * m.f1zz - k.sin_alpha3 * y3z;
+  return m;
+}
+
+// Joints 4 to 6 of the wrist with sin(theta5) not below 0; the flipped wrist has theta4 and theta6 half a
+// turn further and theta5 reversed.
+struct Wrist {
+  Four c4, s4, c5, s5, c6, s6;
+};
+
+STABLECUT_INLINE Wrist solve_wrist(const ArmConstants& k, const HomeTarget& home, const ForearmAxes& m) {
+  const Four zero = {}, one = zero + 1;
+  const double* const x6 = home.x6;
+  const double* const z6 = home.z6;
+  const double wrist45 = k.wrist4 * k.wrist5;
+  // M = Rz(theta4) Rx(alpha4) Rz(theta5) Rx(alpha5) Rz(theta6), its first and third columns.
+  const Four m11 = m.ex * x6[0] + m.ey * x6[1] + m.ez * x6[2],
+             m21 = m.ax * x6[0] + m.ay * x6[1] + m.az * x6[2],
+             m31 = m.bx * x6[0] + m.by * x6[1] + m.bz * x6[2];
+  const Four m13 = m.ex * z6[0] + m.ey * z6[1] + m.ez * z6[2],
+             m23 = m.ax * z6[0] + m.ay * z6[1] + m.az * z6[2],
+             m33 = m.bx * z6[0] + m.by * z6[1] + m.bz * z6[2];
+  // m13 = c4 s5 wrist5, m23 = s4 s5 wrist5, m33 = -wrist45 c5.
+  Wrist wrist;
+  wrist.s5 = square_root(m13 * m13 + m23 * m23);
+  wrist.c5 = -wrist45 * m33;
+  const auto in_line = wrist.s5 < kFreeSine;
+  const Four per_s5 = k.wrist5 / (in_line ? one : wrist.s5);
+  wrist.c4 = in_line ? zero + k.cos_free4 : m13 * per_s5;
+  wrist.s4 = in_line ? zero + k.sin_free4 : m23 * per_s5;
+  // theta6 from what is left after theta4 and theta5: well conditioned in every pose.
+  const Four lx = wrist.c4 * m11 + wrist.s4 * m21, ly = wrist.c4 * m21 - wrist.s4 * m11;
+  wrist.c6 = wrist.c5 * lx + k.wrist4 * wrist.s5 * m31;
+  wrist.s6 = -wrist45 * ly;
+  return wrist;
+}
+
+// The controller angles of the eight branches, and each branch's margin to the limits.
+STABLECUT_INLINE void store_angles(const ArmConstants& k, const Shoulder& shoulder, const Elbow& elbow,
+                                   const Wrist& wrist, ArmLanes& out) {
+  const Four theta4 = angle_of(wrist.s4, wrist.c4), theta5 = angle_of(wrist.s5, wrist.c5),
+             theta6 = angle_of(wrist.s6, wrist.c6);
+  const Four arm_angles[3] = {controller_angle(k, 0, angle_of(shoulder.s1, shoulder.c1)),
+                              controller_angle(k, 1, angle_of(elbow.s2, elbow.c2)),
+                              controller_angle(k, 2, angle_of(k.elbow_sense * elbow.sp, elbow.cp))};
   const Four wrist_angles[2][3] = {
       {controller_angle(k, 3, theta4), controller_angle(k, 4, theta5), controller_angle(k, 5, theta6)},
       {controller_angle(k, 3, theta4 + kPi), controller_angle(k, 4, -theta5),
        controller_angle(k, 5, theta6 + kPi)}};
   Four arm_margin = joint_margin(k, 0, arm_angles[0]);
   for (int j = 1; j < 3; ++j) arm_margin = least(arm_margin, joint_margin(k, j, arm_angles[j]));
-  const Four nowhere = zero - std::numeric_limits<double>::infinity();
-  arm_margin = bends ? arm_margin : nowhere;
+  const Four nowhere = Four{} - std::numeric_limits<double>::infinity();
+  arm_margin = elbow.reaches ? arm_margin : nowhere;
   for (int w = 0; w < 2; ++w) {
     Four margin = arm_margin;
     for (int j = 0; j < 3; ++j) {
@@ -144,23 +204,55 @@ STABLECUT_WIDE void solve_arms(const ArmConstants& robot, const ArmTarget& targe
     }
     store(margin, out.limit_margin + w * kArms);
   }
+}
 
-  store(f1zx, out.axis2[0]);
-  store(f1zy, out.axis2[1]);
-  store(f1zz, out.axis2[2]);
+// Directions of axes 2, 4 and 5, and points on axes 2 and 3.
+STABLECUT_INLINE void store_axes(const ArmConstants& k, const Shoulder& shoulder, const Elbow& elbow,
+                                 const Wrist& wrist, const ForearmAxes& m, ArmLanes& out) {
+  const Four c1 = shoulder.c1, s1 = shoulder.s1, c2 = elbow.c2, s2 = elbow.s2;
+  store(m.f1zx, out.axis2[0]);
+  store(m.f1zy, out.axis2[1]);
+  store(m.f1zz, out.axis2[2]);
   store(k.a1 * c1, out.point2[0]);
   store(k.a1 * s1, out.point2[1]);
-  store(zero, out.point2[2]);
+  store(Four{}, out.point2[2]);
   // The upper arm lies along c2 (x of frame 1) + s2 (its y turned by alpha1).
-  store(k.a1 * c1 + k.a2 * (c2 * c1 + s2 * f1yx), out.point3[0]);
-  store(k.a1 * s1 + k.a2 * (c2 * s1 + s2 * f1yy), out.point3[1]);
-  store(k.a2 * s2 * f1yz, out.point3[2]);
-  store(bx, out.axis4[0]);
-  store(by, out.axis4[1]);
-  store(bz, out.axis4[2]);
-  store(k.wrist4 * (s4 * exx - c4 * ax), out.axis5[0]);
-  store(k.wrist4 * (s4 * exy - c4 * ay), out.axis5[1]);
-  store(k.wrist4 * (s4 * exz - c4 * az), out.axis5[2]);
+  store(k.a1 * c1 + k.a2 * (c2 * c1 + s2 * m.f1yx), out.point3[0]);
+  store(k.a1 * s1 + k.a2 * (c2 * s1 + s2 * m.f1yy), out.point3[1]);
+  store(k.a2 * s2 * m.f1yz, out.point3[2]);
+  store(m.bx, out.axis4[0]);
+  store(m.by, out.axis4[1]);
+  store(m.bz, out.axis4[2]);
+  store(k.wrist4 * (wrist.s4 * m.ex - wrist.c4 * m.ax), out.axis5[0]);
+  store(k.wrist4 * (wrist.s4 * m.ey - wrist.c4 * m.ay), out.axis5[1]);
+  store(k.wrist4 * (wrist.s4 * m.ez - wrist.c4 * m.az), out.axis5[2]);
+}
+
+STABLECUT_INLINE void store_no_arm(ArmLanes& out) {
+  out = ArmLanes{};
+  for (double& margin : out.limit_margin) margin = -std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+STABLECUT_WIDE void solve_arms(const ArmConstants& robot, const ArmTarget& target, ArmLanes& out) {
+  const ArmConstants k = robot;
+  const HomeTarget home = target_in_home(k, target);
+  const Shoulder shoulder = solve_shoulder(k, home.wrist);
+  const Elbow elbow = solve_elbow(k, shoulder);
+  // Lanes 0 and 2 are the front and the rear shoulder; the side of the elbow does not change the reach.
+  if (!shoulder.reaches || !(elbow.reaches[0] || elbow.reaches[2])) {
+    store_no_arm(out);
+  } else {
+    const ForearmAxes axes = forearm_axes(k, shoulder, elbow);
+    const Wrist wrist = solve_wrist(k, home, axes);
+    store_angles(k, shoulder, elbow, wrist, out);
+    store_axes(k, shoulder, elbow, wrist, axes, out);
+  }
+  for (int i = 0; i < 3; ++i) {
+    out.axis6[i] = home.z6[i];
+    out.wrist[i] = home.wrist[i];
+  }
 }
 
 STABLECUT_WIDE void arm_compliances(const ArmLanes& lanes, const double point[3],

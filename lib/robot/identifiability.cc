@@ -7,9 +7,9 @@
 namespace stablecut::robot {
 namespace {
 
-constexpr double kUnseen = 1e-3;
-constexpr double kDependent = 1e-6;
-constexpr double kInMixture = 1e-3;  // component of a joint in a mixture that nothing sees
+constexpr double kUnseen = 1e-3;     // of a column's largest possible size
+constexpr double kDependent = 1e-6;  // of the largest singular value
+constexpr double kInMixture = 1e-3;  // component of a joint in the mixtures that nothing sees
 
 }  // namespace
 

@@ -1,4 +1,5 @@
-// Which joints a set of loads and measurements can see, before any measured value is looked at.
+// Which joints a set of loads and measurements can see, before any measured value is looked at. README.md,
+// "What can be seen".
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +16,7 @@ enum class Visibility {
   kInseparable,  ///< its effect is a mixture of other joints' effects
 };
 
-/// Of equations A c = b whose rows all have deviation 1.
+/// What equations A c = b, whose rows all have standard deviation 1, say about the unknowns c.
 struct Identifiability {
   std::array<Visibility, kJoints> visibility;
   int rank = 0;
@@ -23,9 +24,10 @@ struct Identifiability {
   std::vector<int> independent;  ///< joints whose columns span all that is seen, `rank` of them
 };
 
-/// A joint is unseen when its column is below 1e-3 of what it would be with load and measurement square to
-/// its lever (`largest`): that much comes from misalignment and is no measurement. Columns are dependent
-/// below 1e-6 of the largest singular value of the scaled columns.
+/// `a` [rows x 6]; `largest` [rows x 6] is the size that each entry would have with the load and the measured
+/// direction square to the joint's lever. A joint is unseen when its column is below 1e-3 of that:
+/// misalignment gives as much. Columns are dependent below 1e-6 of the largest singular value of the scaled
+/// columns.
 Identifiability identifiability(const Eigen::MatrixXd& a, const Eigen::MatrixXd& largest);
 
 }  // namespace stablecut::robot

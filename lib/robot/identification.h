@@ -1,4 +1,5 @@
-// Joint stiffness from loads and deflections (Yi et al., section 3; physics: unknowns 1/k, eqs. 10 and 11).
+// Joint stiffness from loads and deflections: what can be said of each joint, and how well. README.md,
+// "Identification".
 #pragma once
 
 #include <array>
@@ -6,6 +7,7 @@
 #include <vector>
 
 #include "robot/identifiability.h"
+#include "robot/leave_one_out.h"
 #include "robot/load_sample.h"
 
 namespace stablecut::robot {
@@ -23,14 +25,6 @@ enum class JointVerdict {
   kUncertain,    ///< the 95 % interval of its compliance reaches 0: it may as well be rigid
 };
 
-struct Outlier {
-  int sample = 0;
-  double residual_m = 0;  ///< length of the residual deflection
-  double deviations = 0;  ///< how far it lies from what the other samples predict, in their deviations: RMS
-                          ///< of its rows, or its worst row
-  double weight = 1;      ///< what the robust loss left of it
-};
-
 struct Identification {
   std::array<JointVerdict, kJoints> verdict;
   JointAngles compliance = JointAngles::Zero();  ///< estimates, rad/(N m); 0 where unseen
@@ -43,23 +37,23 @@ struct Identification {
   std::optional<double> residual_rms_rad;  ///< of the rotations, when measured
   /// Of the intervals: infinite where the samples state deviations and the residuals agree.
   double degrees_of_freedom = 0;
-  std::optional<double> chi_square_per_dof;  ///< where they do
-  double chi_square_tail = 1;                ///< its probability, where they do
-  /// RMS of each sample's deflection less its prediction from all others, over those that the others can
-  /// predict.
-  std::optional<double> cross_validation_rms_m;
-  int samples_not_predicted = 0;
-  /// Samples that lie so far from the prediction of the others that chance does it to one in 16 000; farthest
-  /// first.
-  std::vector<Outlier> outliers;
+  std::optional<double> chi_square_per_dof;  ///< where the samples state deviations
+  double chi_square_tail = 1;                ///< its probability, there
+  /// The stated deviations are plainly too small for the residuals: the covariance was scaled up.
+  bool deviations_contradicted = false;
+  CrossValidation cross_validation;
+  std::vector<Outlier> outliers;  ///< farthest first
+  /// The samples whose force acts where the deflection is measured moved against their loads on the whole,
+  /// which no elastic arm does.
+  bool moved_against_loads = false;
 
   bool identified(int joint) const { return verdict[joint] == JointVerdict::kIdentified; }
+  bool any_identified() const;
 };
 
 /// Least squares in the compliances, none below 0. Weights: the samples' deviations; without them all
-/// deflections alike, and deflections against rotations by their residuals. Where the samples' deviations are
-/// plainly too small (chi-square tail below 1e-3) the covariance is scaled up. Throws NoAnswer when no joint
-/// can be identified.
+/// deflections alike, and deflections against rotations by their residuals. Where no joint can be identified,
+/// the verdicts say why.
 Identification identify_stiffness(const Robot& robot, const std::vector<LoadSample>& samples,
                                   const IdentificationOptions& options);
 

@@ -1,105 +1,15 @@
 #include "robot/identification.h"
 
+#include <Eigen/LU>
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "base/error.h"
-#include "robot/inverse.h"
-#include "robot/measurement_plan.h"
-#include "robot/robot_fixtures_test.h"
+#include "numerics/order_statistics.h"
+#include "robot/load_fixtures_test.h"
 
 using namespace stablecut;
 using namespace stablecut::robot;
 using namespace stablecut::robot::fixtures;
-
-namespace {
-
-struct Setup {
-  std::vector<JointAngles> poses;
-  std::vector<Eigen::Vector3d> loads;
-  Eigen::Vector3d force_point{0, 0, 0.21}, measuring_point{0, 0, 0.21};
-  bool rotations = false;
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-};
-
-const Eigen::Vector3d kDown(0, 0, -588.6);
-const std::vector<Eigen::Vector3d> kThreeLoads = {{600, 0, 0}, {0, 600, 0}, {0, 0, -600}};
-
-// Tool straight down on a grid of a plane, or of a cube: the first branch inside the limits.
-std::vector<JointAngles> tool_down_poses(const Robot& robot, std::vector<double> heights) {
-  const InverseKinematics inverse(robot);
-  std::vector<JointAngles> poses;
-  for (const double z : heights) {
-    for (const double x : {1.2, 1.5, 1.8}) {
-      for (const double y : {-0.6, -0.2, 0.3, 0.7}) {
-        for (const auto& s : inverse.solve(tool_frame({x, y, z}, -Eigen::Vector3d::UnitZ(), 0.3 * x))) {
-          if (s.limit_margin_rad < 0) continue;
-          poses.push_back(s.angles);
-          break;
-        }
-      }
-    }
-  }
-  return poses;
-}
-
-std::vector<JointAngles> random_poses(const Robot& robot, int count, unsigned seed) {
-  std::mt19937_64 generator(seed);
-  std::vector<JointAngles> poses;
-  while (static_cast<int>(poses.size()) < count) poses.push_back(random_angles(robot, generator));
-  return poses;
-}
-
-// Exact measurements of the 2D stiffness.
-std::vector<LoadSample> samples_of(const Robot& robot, const Setup& setup) {
-  std::vector<LoadSample> samples;
-  const JointAngles c = k_theta_2d().cwiseInverse();
-  for (const JointAngles& angles : setup.poses) {
-    for (const Eigen::Vector3d& load : setup.loads) {
-      LoadSample sample;
-      sample.angles = angles;
-      sample.force_n = load;
-      sample.moment_n_m = setup.moment;
-      sample.force_point = setup.force_point;
-      sample.measuring_point = setup.measuring_point;
-      const RobotPose pose = robot_pose(robot, angles);
-      const Matrix6d at_load = jacobian(pose, pose.flange * sample.force_point);
-      const Matrix6d at_measurement = jacobian(pose, pose.flange * sample.measuring_point);
-      Eigen::Matrix<double, 6, 1> wrench;
-      wrench << load, setup.moment;
-      const Eigen::Matrix<double, 6, 1> movement =
-          at_measurement * c.cwiseProduct(at_load.transpose() * wrench);
-      sample.deflection_m = movement.head<3>();
-      if (setup.rotations) sample.rotation_rad = movement.tail<3>();
-      samples.push_back(sample);
-    }
-  }
-  return samples;
-}
-
-void add_noise(std::vector<LoadSample>& samples, double std_m, double std_rad, std::mt19937_64& generator) {
-  for (LoadSample& sample : samples) {
-    for (double& value : sample.deflection_m) value += std_m * numerics::unit_normal(generator);
-    if (!sample.rotation_rad) continue;
-    for (double& value : *sample.rotation_rad) value += std_rad * numerics::unit_normal(generator);
-  }
-}
-
-std::string identified(const Identification& found) {
-  std::string joints;
-  for (int j = 0; j < kJoints; ++j) joints += found.identified(j) ? static_cast<char>('1' + j) : '-';
-  return joints;
-}
-
-double worst_error(const Identification& found) {
-  double worst = 0;
-  for (int j = 0; j < kJoints; ++j) {
-    if (found.identified(j)) worst = std::max(worst, std::abs(found.compliance[j] * k_theta_2d()[j] - 1));
-  }
-  return worst;
-}
-
-}  // namespace
 
 TEST_CASE("what the loads can see: 2, 4, 5 and 6 joints, each named; exact data give the truth") {
   const Robot robot = kr360();
@@ -112,6 +22,7 @@ TEST_CASE("what the loads can see: 2, 4, 5 and 6 joints, each named; exact data 
     CHECK(found.rank == rank);
     CHECK(worst_error(found) < 1e-9);
     CHECK(found.condition_number < 200);
+    CHECK(found.outliers.empty());  // residuals of exact samples are rounding
     for (int j = 0; j < kJoints; ++j) {
       if (!found.identified(j)) CHECK(found.verdict[j] == JointVerdict::kUnseen);
     }
@@ -134,10 +45,23 @@ TEST_CASE("what the loads can see: 2, 4, 5 and 6 joints, each named; exact data 
   verdict({all_ways, {kDown}, off, off}, "-23456", 5);
 }
 
-TEST_CASE("nothing identifiable is no answer") {
+TEST_CASE("without a load no joint is seen") {
   const Robot robot = kr360();
-  Setup setup{{JointAngles::Zero()}, {Eigen::Vector3d::Zero()}};
-  CHECK_THROWS_AS(identify_stiffness(robot, samples_of(robot, setup), {}), NoAnswer);
+  const Setup setup{{JointAngles::Zero()}, {Eigen::Vector3d::Zero()}};
+  const Identification found = identify_stiffness(robot, samples_of(robot, setup), {});
+  CHECK_FALSE(found.any_identified());
+  for (const JointVerdict verdict : found.verdict) CHECK(verdict == JointVerdict::kUnseen);
+}
+
+TEST_CASE("deflections of the wrong sign move against their loads and identify nothing") {
+  const Robot robot = kr360();
+  auto samples = samples_of(robot, {random_poses(robot, 8, 15), kThreeLoads});
+  CHECK_FALSE(identify_stiffness(robot, samples, {}).moved_against_loads);
+  for (LoadSample& sample : samples) sample.deflection_m *= -1;
+  const Identification found = identify_stiffness(robot, samples, {});
+  CHECK(found.moved_against_loads);
+  CHECK_FALSE(found.any_identified());
+  for (const double compliance : found.compliance) CHECK(compliance == 0);
 }
 
 TEST_CASE("one sample cannot tell joints apart, and says so") {
@@ -146,8 +70,10 @@ TEST_CASE("one sample cannot tell joints apart, and says so") {
   const auto samples = samples_of(robot, setup);
   IdentificationOptions only_z;
   only_z.components = {false, false, true};
-  CHECK_THROWS_WITH(identify_stiffness(robot, samples, only_z),
-                    Catch::Contains("A2 cannot be told from others"));
+  const Identification found = identify_stiffness(robot, samples, only_z);
+  CHECK(found.rank == 1);
+  CHECK(found.verdict[1] == JointVerdict::kInseparable);
+  CHECK_FALSE(found.any_identified());
 }
 
 TEST_CASE("95 % intervals hold the truth in 93 to 97 % of all joints and 500 runs") {
@@ -174,6 +100,7 @@ TEST_CASE("95 % intervals hold the truth in 93 to 97 % of all joints and 500 run
       }
     }
     CHECK(all > 900);
+    // 500 runs estimate 95 % with a deviation of at most 1 %.
     return static_cast<double>(inside) / all;
   };
   const Eigen::Vector3d off(0.15, 0.05, 0.21);
@@ -196,24 +123,32 @@ TEST_CASE("95 % intervals hold the truth in 93 to 97 % of all joints and 500 run
   }
 }
 
-TEST_CASE("the robust loss with next to nothing claims nothing") {
+TEST_CASE("the robust loss with nine numbers for five unknowns still gives honest intervals") {
   const Robot robot = kr360();
   const IdentificationOptions huber{true, {true, true, true}};
-  // One or two samples with noise: intervals as wide as they are by least squares.
+  int inside = 0, all = 0, runs_reweighted = 0;
   std::mt19937_64 generator(53);
-  auto two = samples_of(robot, {random_poses(robot, 1, 3), {{600, 0, 0}, {0, 0, -600}}});
-  add_noise(two, 20e-6, 0, generator);
-  const auto width = [&](const IdentificationOptions& options) {
-    try {
-      const Identification found = identify_stiffness(robot, two, options);
-      return found.high[1] - found.low[1];
-    } catch (const NoAnswer&) {
-      return 1.0;
+  for (int run = 0; run < 400; ++run) {
+    auto samples = samples_of(robot, {random_poses(robot, 1, 300 + run), kThreeLoads});
+    add_noise(samples, 20e-6, 0, generator);
+    const Identification by_squares = identify_stiffness(robot, samples, {}),
+                         found = identify_stiffness(robot, samples, huber);
+    runs_reweighted += found.residual_rms_m != by_squares.residual_rms_m;
+    for (int j = 0; j < kJoints; ++j) {
+      if (!found.identified(j)) continue;
+      const double c = 1 / k_theta_2d()[j];
+      inside += found.low[j] <= c && c <= found.high[j];
+      ++all;
     }
-  };
-  CHECK(width(huber) >= 0.5 * width({}));
-  for (LoadSample& sample : two) sample.force_n.setZero();
-  CHECK_THROWS_AS(identify_stiffness(robot, two, huber), NoAnswer);
+  }
+  CHECK(runs_reweighted > 50);  // else this is a test of least squares
+  CHECK(all > 1000);
+  // 95 % by Huber's asymptotic covariance, which so few numbers do not reach: 91 to 95 % over five seeds.
+  CHECK(static_cast<double>(inside) / all > 0.90);
+  CHECK(static_cast<double>(inside) / all < 0.97);
+  // With no load there is nothing to see for either loss.
+  auto unloaded = samples_of(robot, {random_poses(robot, 1, 3), {Eigen::Vector3d::Zero()}});
+  CHECK_FALSE(identify_stiffness(robot, unloaded, huber).any_identified());
 }
 
 TEST_CASE("stated deviations that are too small leave intervals to the residuals") {
@@ -233,6 +168,7 @@ TEST_CASE("stated deviations that are too small leave intervals to the residuals
       ++all;
     }
   }
+  CHECK(all > 2000);
   CHECK(static_cast<double>(inside) / all > 0.93);
   CHECK(static_cast<double>(inside) / all < 0.97);
 }
@@ -240,7 +176,7 @@ TEST_CASE("stated deviations that are too small leave intervals to the residuals
 TEST_CASE("noise that hides a joint: no number for it, no negative stiffness for any") {
   const Robot robot = kr360();
   std::mt19937_64 generator(23);
-  int hidden = 0;
+  int hidden = 0, identified = 0;
   for (int run = 0; run < 100; ++run) {
     auto samples = samples_of(robot, {random_poses(robot, 6, 100 + run), kThreeLoads});
     add_noise(samples, 150e-6, 0, generator);
@@ -248,12 +184,14 @@ TEST_CASE("noise that hides a joint: no number for it, no negative stiffness for
     for (int j = 0; j < kJoints; ++j) {
       if (found.identified(j)) {
         CHECK(found.low[j] > 0);
+        ++identified;
       } else {
         hidden += found.verdict[j] == JointVerdict::kUncertain;
       }
     }
   }
   CHECK(hidden > 20);
+  CHECK(identified > 300);
 }
 
 TEST_CASE("outliers: named by both losses, resisted by one") {
@@ -271,6 +209,7 @@ TEST_CASE("outliers: named by both losses, resisted by one") {
   CHECK(named == std::vector<int>{7, 41});
   CHECK(huber.outliers[0].weight < 0.1);
   CHECK_FALSE(squared.outliers.empty());
+  CHECK(identified(huber) == "12345-");
   CHECK(worst_error(huber) < 0.2 * worst_error(squared));
 
   // One bad component, or one bad sample among few.
@@ -283,6 +222,23 @@ TEST_CASE("outliers: named by both losses, resisted by one") {
     REQUIRE(one.outliers.size() == 1);
     CHECK(one.outliers[0].sample == 5);
   }
+}
+
+TEST_CASE("a single component that is off is found though its sample as a whole hides it") {
+  const Robot robot = kr360();
+  const auto exact = samples_of(robot, {random_poses(robot, 7, 9), kThreeLoads});
+  std::mt19937_64 generator(43);
+  int found_it = 0, false_alarms = 0;
+  for (int run = 0; run < 200; ++run) {
+    auto samples = exact;
+    add_noise(samples, 5e-6, 0, generator);
+    samples[5].deflection_m.y() += 30e-6;  // 6 deviations
+    for (const Outlier& outlier : identify_stiffness(robot, samples, {}).outliers)
+      ++(outlier.sample == 5 ? found_it : false_alarms);
+  }
+  // 176 runs; 133 by the whole sample alone. Chance names a sample of these 4200 once in four such tests.
+  CHECK(found_it > 160);
+  CHECK(false_alarms <= 2);
 }
 
 TEST_CASE("cross-validation is what leaving out does") {
@@ -299,11 +255,11 @@ TEST_CASE("cross-validation is what leaving out does") {
     const ComplianceEquations left = compliance_equations(robot, {samples[i]}, {true, true, true});
     sum += (left.b - left.a * without.compliance).squaredNorm();
   }
-  REQUIRE(found.cross_validation_rms_m);
-  CHECK(*found.cross_validation_rms_m ==
+  REQUIRE(found.cross_validation.rms_m);
+  CHECK(*found.cross_validation.rms_m ==
         Approx(std::sqrt(sum / (3.0 * static_cast<double>(samples.size())))).epsilon(1e-9));
-  CHECK(found.samples_not_predicted == 0);
-  CHECK(found.residual_rms_m < *found.cross_validation_rms_m);
+  CHECK(found.cross_validation.samples_not_predicted == 0);
+  CHECK(found.residual_rms_m < *found.cross_validation.rms_m);
 }
 
 TEST_CASE("stated deviations that are too small are noticed") {
@@ -317,38 +273,66 @@ TEST_CASE("stated deviations that are too small are noticed") {
   CHECK(*found.chi_square_per_dof == Approx(25).epsilon(0.3));
 }
 
-TEST_CASE("a plan is the best of all choices where they can be tried, and never worse than chance") {
+TEST_CASE("what the others cannot predict is left out of the cross-validation") {
   const Robot robot = kr360();
-  auto candidates = samples_of(robot, {random_poses(robot, 4, 21), kThreeLoads});
-  for (LoadSample& sample : candidates) sample.deflection_std_m = Eigen::Vector3d::Constant(5e-6);
-  const std::array<bool, 3> xyz = {true, true, true};
-  const auto log_det = [&](const std::vector<int>& chosen) {
-    Eigen::Matrix<double, 5, 5> sum = Eigen::Matrix<double, 5, 5>::Zero();
-    for (const int k : chosen) {
-      const auto a = compliance_equations(robot, {candidates[k]}, xyz).a.leftCols<5>().eval();
-      sum += a.transpose() * a;
-    }
-    return std::log(sum.determinant());
-  };
-  const MeasurementPlan plan = plan_measurements(robot, candidates, xyz, 3);
-  double best = -1e9;
-  for (int i = 0; i < 12; ++i) {
-    for (int j = i; j < 12; ++j) {
-      for (int k = j; k < 12; ++k) best = std::max(best, log_det({i, j, k}));
-    }
-  }
-  CHECK(log_det(plan.chosen) == Approx(best).epsilon(1e-9));
-  CHECK(plan.identifiability.rank == 5);
-  CHECK(std::isnan(plan.compliance_std[5]));
-  CHECK(plan.efficiency <= 1);
-  CHECK(plan.efficiency > 0.5);
+  // One sample with a load along y, which alone turns joint 1.
+  auto samples = samples_of(robot, {tool_down_poses(robot, {1.6}), {kDown}});
+  const JointAngles arm_ahead = (JointAngles() << 0, -1.7, 1.9, 0, 1.4, 0).finished();
+  const auto sideways = samples_of(robot, {{arm_ahead}, {{0, 600, 0}}});
+  samples.push_back(sideways.front());
+  std::mt19937_64 generator(83);
+  add_noise(samples, 5e-6, 0, generator);
+  const Identification found = identify_stiffness(robot, samples, {});
+  CHECK(found.identified(0));
+  CHECK(found.cross_validation.samples_not_predicted == 1);
+  REQUIRE(found.cross_validation.rms_m);
+  CHECK(*found.cross_validation.rms_m < 10e-6);  // the noise, some lever added
+}
 
-  // What the plan promises is what the identification then gets.
-  std::vector<LoadSample> measured;
-  for (const int k : plan.chosen) measured.push_back(candidates[k]);
-  const Identification found = identify_stiffness(robot, measured, {});
-  for (int j = 0; j < 5; ++j) {
-    CHECK(plan.compliance_std[j] == Approx(std::sqrt(found.covariance(j, j))).epsilon(1e-6));
+TEST_CASE("the robust loss solves Huber's equations") {
+  const Robot robot = kr360();
+  auto samples = samples_of(robot, {random_poses(robot, 8, 19), kThreeLoads});
+  std::mt19937_64 generator(89);
+  add_noise(samples, 10e-6, 0, generator);
+  for (std::size_t i = 0; i < samples.size(); i += 6) samples[i].deflection_m.x() += 100e-6;
+  const Identification found = identify_stiffness(robot, samples, {true, {true, true, true}});
+  REQUIRE(identified(found) == "12345-");
+  // sum over samples of w J^T r = 0, with w = min(1, 2 / z) and z the sample's RMS residual in robust
+  // deviations.
+  const ComplianceEquations equations = compliance_equations(robot, samples, {true, true, true});
+  const Eigen::VectorXd r = equations.b - equations.a * found.compliance;
+  std::vector<double> sizes(r.size());
+  for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] = std::abs(r[i]);
+  const double deviation = numerics::median(sizes) / 0.6745;
+  JointAngles sum = JointAngles::Zero(), size = JointAngles::Zero();
+  int down_weighted = 0;
+  for (Eigen::Index s = 0; s < r.size() / 3; ++s) {
+    const Eigen::Vector3d own = r.segment<3>(3 * s);
+    const double z = own.norm() / (std::sqrt(3.0) * deviation), weight = z > 2 ? 2 / z : 1;
+    down_weighted += weight < 1;
+    const JointAngles term = weight * equations.a.middleRows<3>(3 * s).transpose() * own;
+    sum += term;
+    size += term.cwiseAbs();
   }
-  CHECK_THROWS_AS(plan_measurements(robot, candidates, xyz, 1), NoAnswer);
+  CHECK(down_weighted >= 4);  // the four shifted samples
+  for (int j = 0; j < 5; ++j) CHECK(std::abs(sum[j]) < 1e-9 * size[j]);
+}
+
+TEST_CASE("stated deviations are believed when they are right, and not when they are two thirds") {
+  const Robot robot = kr360();
+  const auto exact = samples_of(robot, {random_poses(robot, 12, 13), kThreeLoads});
+  std::mt19937_64 generator(97);
+  int contradicted_right = 0, contradicted_small = 0;
+  constexpr int kRuns = 500;
+  for (int run = 0; run < kRuns; ++run) {
+    auto samples = exact;
+    add_noise(samples, 10e-6, 0, generator);
+    for (LoadSample& sample : samples) sample.deflection_std_m = Eigen::Vector3d::Constant(10e-6);
+    contradicted_right += identify_stiffness(robot, samples, {}).deviations_contradicted;
+    for (LoadSample& sample : samples) sample.deflection_std_m = Eigen::Vector3d::Constant(6.7e-6);
+    contradicted_small += identify_stiffness(robot, samples, {}).deviations_contradicted;
+  }
+  // One in a thousand by chance; 103 degrees of freedom tell a variance of 2.2 from 1.
+  CHECK(contradicted_right <= 4);
+  CHECK(contradicted_small > 0.99 * kRuns);
 }

@@ -5,14 +5,14 @@
 #include <string>
 
 #include "base/error.h"
-#include "base/number_text.h"
 #include "base/units.h"
 
 namespace stablecut::robot {
 namespace {
 
 constexpr double kLengthTolerance = 1e-9;  // m
-constexpr double kAngleTolerance = 1e-9;   // rad
+constexpr double kAngleTolerance = 1e-9;   // sine or cosine of an angle between axes
+constexpr double kSameSolution = 1e-9;     // rad
 
 // The controller angle nearest to 0 inside the limits.
 double nearest_to_zero(const Joint& joint) { return std::clamp(0.0, joint.min_rad, joint.max_rad); }
@@ -21,33 +21,19 @@ double nearest_to_zero(const Joint& joint) { return std::clamp(0.0, joint.min_ra
 
 std::optional<UnsupportedGeometry> unsupported_geometry(const Robot& robot) {
   const auto& j = robot.joints;
-  const auto length = [&](int joint, double value, const char* field) -> std::optional<UnsupportedGeometry> {
-    if (std::abs(value) <= kLengthTolerance) return std::nullopt;
-    return UnsupportedGeometry{joint, field, mm_from_metres(value),
-                               "0, since axes 4, 5 and 6 have to meet in one point (a spherical wrist)"};
-  };
-  const auto right_angle = [&](int joint) -> std::optional<UnsupportedGeometry> {
-    if (std::abs(j[joint].cos_alpha()) <= kAngleTolerance) return std::nullopt;
-    return UnsupportedGeometry{joint, "alpha_deg", degrees_from_radians(j[joint].alpha_rad()),
-                               "90 or -90, since the axes of the wrist have to cross at right angles"};
-  };
-  if (std::abs(j[1].sin_alpha()) <= kAngleTolerance) {
-    return UnsupportedGeometry{1, "alpha_deg", degrees_from_radians(j[1].alpha_rad()),
-                               "no multiple of 180, since axes 1 and 2 must not be parallel"};
-  }
-  if (std::abs(j[2].sin_alpha()) > kAngleTolerance) {
-    return UnsupportedGeometry{2, "alpha_deg", degrees_from_radians(j[2].alpha_rad()),
-                               "0 or 180, since the axes of shoulder and elbow have to be parallel"};
-  }
-  if (std::abs(j[2].a_m) <= kLengthTolerance) {
-    return UnsupportedGeometry{2, "a_mm", mm_from_metres(j[2].a_m), "an upper arm longer than 0"};
-  }
-  if (std::hypot(j[3].a_m, j[3].d_m * j[3].sin_alpha()) <= kLengthTolerance) {
-    return UnsupportedGeometry{3, "d_mm", mm_from_metres(j[3].d_m), "a forearm longer than 0"};
-  }
-  for (const auto& found : {length(4, j[4].a_m, "a_mm"), length(4, j[4].d_m, "d_mm"),
-                            length(5, j[5].a_m, "a_mm"), right_angle(4), right_angle(5)}) {
-    if (found) return found;
+  const auto parallel = [&](int i) { return std::abs(j[i].sin_alpha()) <= kAngleTolerance; };
+  const auto square = [&](int i) { return std::abs(j[i].cos_alpha()) <= kAngleTolerance; };
+  const auto none = [](double length) { return std::abs(length) <= kLengthTolerance; };
+  if (parallel(1)) return UnsupportedGeometry{1, DhParameter::kAlpha, GeometryRule::kShoulderNotParallel};
+  if (!parallel(2)) return UnsupportedGeometry{2, DhParameter::kAlpha, GeometryRule::kElbowParallel};
+  if (none(j[2].a_m)) return UnsupportedGeometry{2, DhParameter::kA, GeometryRule::kUpperArm};
+  if (none(std::hypot(j[3].a_m, j[3].d_m * j[3].sin_alpha())))
+    return UnsupportedGeometry{3, DhParameter::kD, GeometryRule::kForearm};
+  if (!none(j[4].a_m)) return UnsupportedGeometry{4, DhParameter::kA, GeometryRule::kWristCentre};
+  if (!none(j[4].d_m)) return UnsupportedGeometry{4, DhParameter::kD, GeometryRule::kWristCentre};
+  if (!none(j[5].a_m)) return UnsupportedGeometry{5, DhParameter::kA, GeometryRule::kWristCentre};
+  for (const int i : {4, 5}) {
+    if (!square(i)) return UnsupportedGeometry{i, DhParameter::kAlpha, GeometryRule::kWristSquare};
   }
   return std::nullopt;
 }
@@ -55,8 +41,8 @@ std::optional<UnsupportedGeometry> unsupported_geometry(const Robot& robot) {
 InverseKinematics::InverseKinematics(const Robot& robot)
     : frame6_from_tool_(robot.tool_in_frame6().inverse()), home_from_base_(Eigen::Isometry3d::Identity()) {
   if (const auto bad = unsupported_geometry(robot)) {
-    throw InvalidArgument("joint " + robot.joints[bad->joint].name + ": " + bad->field + " " +
-                          number_text(bad->value) + ": expected " + bad->expected);
+    throw InvalidArgument("joint " + robot.joints[bad->joint].name +
+                          ": no analytic inverse kinematics for this geometry");
   }
   const auto& j = robot.joints;
   for (const Joint& joint : j) {
@@ -125,7 +111,7 @@ std::vector<InverseSolution> InverseKinematics::solve(const Eigen::Isometry3d& t
     InverseSolution solution{{}, b, lanes.limit_margin[b]};
     for (int i = 0; i < kJoints; ++i) solution.angles[i] = lanes.angle[i][b];
     const bool repeated = std::any_of(solutions.begin(), solutions.end(), [&](const InverseSolution& other) {
-      return (other.angles - solution.angles).lpNorm<Eigen::Infinity>() < 1e-9;
+      return (other.angles - solution.angles).lpNorm<Eigen::Infinity>() < kSameSolution;
     });
     if (!repeated) solutions.push_back(solution);
   }

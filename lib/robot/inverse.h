@@ -17,21 +17,30 @@ struct InverseSolution {
   double limit_margin_rad = 0;  ///< negative outside the limits
 };
 
+/// What the analytic solution asks of a robot's table. README.md, "Inverse kinematics".
+enum class GeometryRule {
+  kShoulderNotParallel,  ///< axes 1 and 2 are not parallel
+  kElbowParallel,        ///< axes 2 and 3 are parallel
+  kUpperArm,             ///< the upper arm (a of link 2) has a length
+  kForearm,              ///< the wrist centre does not lie on axis 3
+  kWristCentre,          ///< axes 4, 5 and 6 meet in one point
+  kWristSquare,          ///< axis 5 is square to axis 4, and axis 6 to axis 5
+};
+enum class DhParameter { kA, kAlpha, kD };
+
 /// What makes a table unfit for the analytic solution.
 struct UnsupportedGeometry {
-  int joint = 0;           ///< index
-  const char* field = "";  ///< of the robot document
-  double value = 0;        ///< as there: mm or deg
-  const char* expected = "";
+  int joint = 0;          ///< index
+  DhParameter parameter;  ///< of that joint's row: it breaks the rule
+  GeometryRule rule;
 };
 
-/// Nothing when axes 1 and 2 are not parallel, axes 2 and 3 are, upper arm and forearm have a length, and
-/// axes 4, 5 and 6 meet in one point, each at a right angle to the one before.
+/// The first rule that the robot breaks, or nothing.
 std::optional<UnsupportedGeometry> unsupported_geometry(const Robot& robot);
 
 class InverseKinematics {
  public:
-  /// Throws InvalidArgument where unsupported_geometry() has something to say.
+  /// Throws InvalidArgument where unsupported_geometry() finds something, or a joint has no finite limits.
   explicit InverseKinematics(const Robot& robot);
 
   /// All branches that reach the tool frame (base frame, m), inside the limits or not, without repeats where

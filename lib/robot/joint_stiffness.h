@@ -1,4 +1,4 @@
-// What is known of the joints' stiffness.
+// The joints' stiffness as far as it is known.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@ namespace stablecut::robot {
 
 struct JointStiffness {
   std::array<std::optional<double>, kJoints> stiffness;  ///< N m/rad
-  /// Of the compliances, (rad/(N m))^2, with zero rows where nothing is known; absent when no deviation is
-  /// known.
+  /// Of the compliances, (rad/(N m))^2, with zero rows where nothing is known; absent when no standard
+  /// deviation is known.
   std::optional<Matrix6d> compliance_covariance;
 };
 

@@ -9,10 +9,12 @@
 namespace stablecut::robot {
 namespace {
 
+constexpr double kAlongX = 1e-16;  // squared sine below which the tool axis is parallel to the base's x axis
+
 // The tool's x and y axes at redundancy angle 0.
 std::pair<Eigen::Vector3d, Eigen::Vector3d> reference_directions(const Eigen::Vector3d& axis) {
   Eigen::Vector3d x = Eigen::Vector3d::UnitX() - axis.x() * axis;
-  if (x.squaredNorm() < 1e-16) x = Eigen::Vector3d::UnitY() - axis.y() * axis;
+  if (x.squaredNorm() < kAlongX) x = Eigen::Vector3d::UnitY() - axis.y() * axis;
   x.normalize();
   return {x, axis.cross(x)};
 }
@@ -70,7 +72,7 @@ double singularity_margin(const RobotPose& pose) {
 bool is_away_from_singularities(const RobotPose& pose, double margin) {
   if (!(margin > 0)) return true;
   const Matrix6d j = jacobian(pose, pose.tool.translation());
-  // The least eigenvalue of J J^T against margin^2.
+  // Positive definite as long as the least eigenvalue of J J^T is above margin^2.
   const Eigen::LLT<Matrix6d> factor(Matrix6d(j * j.transpose()) - margin * margin * Matrix6d::Identity());
   return factor.info() == Eigen::Success;
 }

@@ -7,7 +7,7 @@ namespace stablecut::robot {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// The robot at one set of angles, base frame, metres.
+/// The robot at one set of angles, base frame, m.
 struct RobotPose {
   Eigen::Matrix<double, 3, kJoints> axis;   ///< unit vectors, positive in the sense of growing angles
   Eigen::Matrix<double, 3, kJoints> point;  ///< a point on each axis: the origin of its frame
@@ -15,28 +15,30 @@ struct RobotPose {
   Eigen::Isometry3d tool;
 };
 
-/// Forward kinematics: T(i-1, i) = Rx(alpha) Tx(a) Rz(theta) Tz(d), with a, alpha of link i-1 (eq. 1; the
-/// paper prints a_i cos(alpha) where it means d_i cos(alpha)).
+/// Forward kinematics: T(i-1, i) = Rx(alpha) Tx(a) Rz(theta) Tz(d), with a, alpha of link i-1 [Yi2025, eq.
+/// 1].
 RobotPose robot_pose(const Robot& robot, const JointAngles& angles);
 
 /// Jacobian of a point fixed to the last link (base frame, m): rows velocity (m/rad), then rotation
-/// (rad/rad); column i is [z_i x (point - p_i); z_i] (eq. 4, in the base frame).
+/// (rad/rad); column i is [z_i x (point - p_i); z_i] [Yi2025, eq. 4], [Whitney1972].
 Matrix6d jacobian(const RobotPose& pose, const Eigen::Vector3d& point);
 
 /// Its first three rows.
 Eigen::Matrix<double, 3, kJoints> translational_jacobian(const RobotPose& pose, const Eigen::Vector3d& point);
 
-/// The least singular value of the Jacobian at the tool point, lengths in metres: 0 at a singular pose.
+/// The least singular value of the Jacobian at the tool point, lengths in m: 0 at a singular pose.
 double singularity_margin(const RobotPose& pose);
 
-/// True when that is at least `margin`, decided by a Cholesky factorization, which costs a tenth.
+/// True when the singularity margin is at least `margin`. Decided by a Cholesky factorization of J J^T -
+/// margin^2, which costs a tenth of the singular values.
 bool is_away_from_singularities(const RobotPose& pose, double margin);
 
 /// Angle (rad, -pi..pi) by which the tool's x axis is turned about the tool's z axis from where it is nearest
 /// to the base's x axis; where the tool axis is parallel to the base's x axis, nearest to its y axis.
 double redundancy_angle(const Eigen::Isometry3d& tool);
 
-/// The tool's frame with its z axis along `axis` (unit, base frame), at that redundancy angle and point.
+/// The tool's frame (base frame, m) with its origin at `point` and its z axis along `axis` (length 1), at
+/// that redundancy angle.
 Eigen::Isometry3d tool_frame(const Eigen::Vector3d& point, const Eigen::Vector3d& axis,
                              double redundancy_rad);
 

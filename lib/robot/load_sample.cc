@@ -1,6 +1,13 @@
 #include "robot/load_sample.h"
 
+#include <algorithm>
+
 namespace stablecut::robot {
+namespace {
+
+constexpr double kLeastPlausible = 1e-6, kMostPlausible = 0.02;  // m, of the largest deflection
+
+}  // namespace
 
 ComplianceEquations compliance_equations(const Robot& robot, const std::vector<LoadSample>& samples,
                                          const std::array<bool, 3>& components) {
@@ -61,6 +68,16 @@ ComplianceEquations compliance_equations(const Robot& robot, const std::vector<L
     if (with_std) equations.std[i] = row.std;
   }
   return equations;
+}
+
+double largest_deflection(const std::vector<LoadSample>& samples) {
+  double largest = 0;
+  for (const LoadSample& sample : samples) largest = std::max(largest, sample.deflection_m.norm());
+  return largest;
+}
+
+bool plausible_deflection(double largest_m) {
+  return largest_m == 0 || (largest_m >= kLeastPlausible && largest_m <= kMostPlausible);
 }
 
 }  // namespace stablecut::robot

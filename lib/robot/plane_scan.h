@@ -1,4 +1,4 @@
-// A task's plane scanned point by point, and the map that it makes.
+// A task's plane scanned point by point, and the map of the best samples.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,14 +21,14 @@ struct PlaneScan {
 PlaneScan scan_plane(const Robot& robot, const PoseTask& task, int threads, const Progress& progress = {});
 
 /// The score at a point (m, in the plane) over the task's redundancy samples, of the best branch at each;
-/// none where nothing is allowed.
+/// nothing where no branch is allowed.
 struct RedundancySweep {
   std::vector<double> redundancy_rad;
-  std::vector<std::optional<double>> score;  ///< N/m, or m for a deflection
+  std::vector<std::optional<double>> score;  ///< SI units
 };
 RedundancySweep redundancy_sweep(const Robot& robot, const PoseTask& task, double x, double y);
 
-/// The best of the samples at each point; nothing is refined.
+/// The best sample at each point of the plane, without refinement.
 struct PoseMap {
   Eigen::MatrixXd score;                     ///< [y][x], NaN where nothing is allowed
   Eigen::MatrixXd redundancy_rad;            ///< [y][x]

@@ -8,22 +8,29 @@
 namespace stablecut::robot {
 namespace {
 
-constexpr double kSameAngle = 1e-4;  // rad
+constexpr double kSameAngle = 1e-4;        // rad
+constexpr double kBoundRounding = 1e-9;    // m and rad by which a family may leave intervals and limits
+constexpr double kZeroCoordinate = 1e-12;  // m: a coordinate below is 0
+constexpr double kAlongAxis = 1e-12;       // sine below which a direction lies along axis 1
+constexpr double kFamilyStep = kPi / 720;  // rad
+constexpr int kBisections = 50;            // of the last step
 
 bool inside(const Range& range, double value) {
-  return value >= range.from - 1e-9 && value <= range.to + 1e-9;
+  return value >= range.from - kBoundRounding && value <= range.to + kBoundRounding;
 }
 
-// Where the tool of a pose stands in the task's space; nothing outside its intervals and limits.
-std::optional<FoundPose> placed(const PoseScanner& scanner, FoundPose pose) {
+// The pose with the place in the task's space to which its angles bring the tool; nothing outside the task's
+// intervals and limits.
+std::optional<FoundPose> with_place_of_tool(const PoseScanner& scanner, FoundPose pose) {
   const PoseTask& task = scanner.task();
-  if (limit_margin_rad(scanner.robot(), pose.angles) < task.limit_margin_rad - 1e-9) return std::nullopt;
+  if (limit_margin_rad(scanner.robot(), pose.angles) < task.limit_margin_rad - kBoundRounding)
+    return std::nullopt;
   const Eigen::Isometry3d tool = robot_pose(scanner.robot(), pose.angles).tool;
   const Eigen::Vector3d offset = tool.translation() - task.plane.origin;
-  const auto tidy = [](double value) { return std::abs(value) < 1e-12 ? 0 : value; };
-  pose.at.x = tidy(offset.dot(task.plane.x_axis));
-  pose.at.y = tidy(offset.dot(task.plane.y_axis));
-  // The turn of the interval, of all copies by whole turns.
+  const auto rounded = [](double value) { return std::abs(value) < kZeroCoordinate ? 0 : value; };
+  pose.at.x = rounded(offset.dot(task.plane.x_axis));
+  pose.at.y = rounded(offset.dot(task.plane.y_axis));
+  // Of all copies of the turn by whole turns, the one nearest the middle of the interval.
   const double turn = redundancy_angle(tool), middle = 0.5 * (task.redundancy.from + task.redundancy.to);
   pose.at.redundancy = task.full_turn() ? turn : turn + kTwoPi * std::nearbyint((middle - turn) / kTwoPi);
   if (!task.full_turn() && !inside(task.redundancy, pose.at.redundancy)) return std::nullopt;
@@ -31,9 +38,10 @@ std::optional<FoundPose> placed(const PoseScanner& scanner, FoundPose pose) {
   return pose;
 }
 
-// The pose with one joint elsewhere, if the task's intervals and limits allow it. Where the redundancy cannot
-// matter but is bounded, joint 6 takes a turn of the base back.
-std::optional<FoundPose> turned(const PoseScanner& scanner, const FoundPose& found, int joint, double angle) {
+// The pose with one joint turned to `angle`, if the task's intervals and limits allow it. Where the
+// redundancy cannot matter but is bounded, joint 6 undoes what a turn of the base does to the tool.
+std::optional<FoundPose> with_joint_at(const PoseScanner& scanner, const FoundPose& found, int joint,
+                                       double angle) {
   FoundPose pose = found;
   pose.angles[joint] = angle;
   if (joint == 0 && !scanner.redundancy_matters() && !scanner.task().full_turn()) {
@@ -42,7 +50,7 @@ std::optional<FoundPose> turned(const PoseScanner& scanner, const FoundPose& fou
     pose.angles = most_central_copies(scanner.robot(), pose.angles);
     pose.angles[joint] = angle;
   }
-  auto result = placed(scanner, pose);
+  auto result = with_place_of_tool(scanner, pose);
   if (result && scanner.task().redundancy.is_point()) result->at.redundancy = found.at.redundancy;
   return result;
 }
@@ -50,26 +58,24 @@ std::optional<FoundPose> turned(const PoseScanner& scanner, const FoundPose& fou
 }  // namespace
 
 Symmetry symmetry_of(const PoseScanner& scanner) {
-  constexpr double kParallel = 1e-12;
   const PoseTask& task = scanner.task();
   const Robot& robot = scanner.robot();
   const Eigen::Vector3d axis1(0, -robot.joints[0].sin_alpha(), robot.joints[0].cos_alpha());
   const auto along_axis1 = [&](const Eigen::Vector3d& v) {
-    return v.cross(axis1).norm() <= kParallel * v.norm();
+    return v.cross(axis1).norm() <= kAlongAxis * v.norm();
   };
   Symmetry symmetry;
   symmetry.tool_turn = !scanner.redundancy_matters() && !task.redundancy.is_point();
-  const bool load_turns = task.stiffness.index != StiffnessIndex::kDeflection ||
-                          task.stiffness.force_in_tool || along_axis1(*task.stiffness.force_n);
+  const bool load_turns = !task.stiffness.index->needs_force || task.stiffness.force_in_tool ||
+                          along_axis1(*task.stiffness.force_n);
   symmetry.base_turn = load_turns && along_axis1(task.tool_axis) &&
                        along_axis1(task.plane.x_axis.cross(task.plane.y_axis)) && !task.x.is_point() &&
                        !task.y.is_point() && (!task.redundancy.is_point() || !scanner.redundancy_matters());
   return symmetry;
 }
 
-// As far as a joint can be turned either way with all intervals and limits held: in steps, then by bisection.
+// In steps to either side until one is not allowed, then by bisection.
 PoseFamily family_of(const PoseScanner& scanner, const FoundPose& found, PoseFamily::Kind kind, int joint) {
-  constexpr double kStep = kPi / 720;
   PoseFamily family{kind, found.angles[joint], found.angles[joint]};
   const Joint& limits = scanner.robot().joints[joint];
   for (const double sense : {-1.0, 1.0}) {
@@ -77,27 +83,28 @@ PoseFamily family_of(const PoseScanner& scanner, const FoundPose& found, PoseFam
     const double end = sense < 0 ? limits.min_rad + margin : limits.max_rad - margin;
     double good = found.angles[joint], bad = end;
     bool open = true;
-    for (double next = good + sense * kStep; open && sense * (end - next) > 0; next += sense * kStep) {
-      open = turned(scanner, found, joint, next).has_value();
+    for (double next = good + sense * kFamilyStep; open && sense * (end - next) > 0;
+         next += sense * kFamilyStep) {
+      open = with_joint_at(scanner, found, joint, next).has_value();
       (open ? good : bad) = next;
     }
-    if (open && turned(scanner, found, joint, end)) good = bad = end;
-    for (int i = 0; i < 50 && good != bad; ++i) {
+    if (open && with_joint_at(scanner, found, joint, end)) good = bad = end;
+    for (int i = 0; i < kBisections && good != bad; ++i) {
       const double middle = 0.5 * (good + bad);
-      (turned(scanner, found, joint, middle) ? good : bad) = middle;
+      (with_joint_at(scanner, found, joint, middle) ? good : bad) = middle;
     }
     (sense < 0 ? family.from_rad : family.to_rad) = good;
   }
   return family;
 }
 
-FoundPose centred(const PoseScanner& scanner, FoundPose found, const Symmetry& symmetry) {
+FoundPose central_member(const PoseScanner& scanner, FoundPose found, const Symmetry& symmetry) {
   for (const int j : {0, 5}) {
     if (!(j == 0 ? symmetry.base_turn : symmetry.tool_turn)) continue;
     const Joint& joint = scanner.robot().joints[j];
     const double margin = scanner.task().limit_margin_rad;
     const double central = std::clamp(0.0, joint.min_rad + margin, joint.max_rad - margin);
-    if (const auto moved = turned(scanner, found, j, central)) found = *moved;
+    if (const auto moved = with_joint_at(scanner, found, j, central)) found = *moved;
   }
   return found;
 }
@@ -110,7 +117,7 @@ bool same_pose(const FoundPose& a, const FoundPose& b, const Symmetry& symmetry)
   return true;
 }
 
-std::optional<FoundPose> flipped(const PoseScanner& scanner, const FoundPose& found) {
+std::optional<FoundPose> flipped_wrist(const PoseScanner& scanner, const FoundPose& found) {
   FoundPose other = found;
   other.at.branch = (found.at.branch + kArms) % kBranches;
   const auto evaluation = scanner.evaluate(other.at);

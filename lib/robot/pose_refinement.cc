@@ -9,60 +9,62 @@
 namespace stablecut::robot {
 namespace {
 
+constexpr double kEqualScores = 1e-7;  // relative
 constexpr int kMostRestarts = 10;
+constexpr double kRidgePowers[] = {30, 300, 3000};  // of the power means that stand for a ridge
+constexpr double kRidgeRadius = 0.3;                // of the radius of the power before
+constexpr double kDifference = 1e-4;                // m and rad, of the derivatives
+constexpr double kUnboundedTurn = 100;              // rad: bound of a redundancy that is the full turn
 
 // Refinement over those of x, y and redundancy that are free and matter.
 class Refinement {
  public:
-  explicit Refinement(const PoseScanner& scanner) : scanner_(scanner), task_(scanner.task()) {}
+  explicit Refinement(const PoseScanner& scanner) : scanner_(scanner), task_(scanner.task()) {
+    const PoseTask& task = task_;
+    if (!task.x.is_point()) free_.push_back({&PlanePoint::x, task.x.from, task.x.to});
+    if (!task.y.is_point()) free_.push_back({&PlanePoint::y, task.y.from, task.y.to});
+    if (!task.redundancy.is_point() && scanner.redundancy_matters()) {
+      const bool full = task.full_turn();
+      free_.push_back({&PlanePoint::redundancy, full ? -kUnboundedTurn : task.redundancy.from,
+                       full ? kUnboundedTurn : task.redundancy.to});
+    }
+  }
 
-  // The weakest principal stiffness has a ridge where two are equal, on which a smooth model fails. There a
-  // power mean of the compliances stands for the largest of them, sharper and sharper, each from the best
-  // point so far.
   std::optional<FoundPose> from(const PlanePoint& start, double radius) const {
-    auto best = from(start, radius, 0);
-    // On a narrow curved ridge a search may stop early; another from where it stopped goes on.
+    auto best = optimum(start, radius, 0);
+    // On a narrow curved ridge a search may stop early: one more from where it stopped goes on.
     for (int i = 0; best && i < kMostRestarts; ++i) {
-      const auto again = from(best->at, radius, 0);
+      const auto again = optimum(best->at, radius, 0);
       if (!again || equal_scores(again->score, best->score)) break;
       best = again;
     }
-    if (!best || task_.stiffness.index != StiffnessIndex::kWeakest) return best;
-    for (const double power : {30.0, 300.0, 3000.0}) {
-      const auto smoothed = from(best->at, radius, power);
+    if (!best || !task_.stiffness.index->has_ridge) return best;
+    for (const double power : kRidgePowers) {
+      const auto smoothed = optimum(best->at, radius, power);
       if (smoothed && smoothed->score > best->score) best = smoothed;
-      radius *= 0.3;
+      radius *= kRidgeRadius;
     }
     return best;
   }
 
  private:
-  static constexpr double kDifference = 1e-4;  // m and rad
-
   struct Freedom {
     double PlanePoint::*coordinate;
     double lower, upper;
   };
 
-  std::optional<FoundPose> from(const PlanePoint& start, double radius, double power) const {
-    std::vector<Freedom> free;
-    if (!task_.x.is_point()) free.push_back({&PlanePoint::x, task_.x.from, task_.x.to});
-    if (!task_.y.is_point()) free.push_back({&PlanePoint::y, task_.y.from, task_.y.to});
-    if (!task_.redundancy.is_point() && scanner_.redundancy_matters()) {
-      const bool open = task_.full_turn();
-      free.push_back(
-          {&PlanePoint::redundancy, open ? -100 : task_.redundancy.from, open ? 100 : task_.redundancy.to});
-    }
-    const Eigen::Index n = free.size();
+  // The constrained maximum of the score from `start`; with a power, of the score that smooths the ridge.
+  std::optional<FoundPose> optimum(const PlanePoint& start, double radius, double power) const {
+    const Eigen::Index n = free_.size();
     numerics::Variables first(n), lower(n), upper(n);
     for (Eigen::Index i = 0; i < n; ++i) {
-      first[i] = start.*free[i].coordinate;
-      lower[i] = free[i].lower;
-      upper[i] = free[i].upper;
+      first[i] = start.*free_[i].coordinate;
+      lower[i] = free_[i].lower;
+      upper[i] = free_[i].upper;
     }
     const auto point = [&](const numerics::Variables& x) {
       PlanePoint at = start;
-      for (Eigen::Index i = 0; i < n; ++i) at.*free[i].coordinate = x[i];
+      for (Eigen::Index i = 0; i < n; ++i) at.*free_[i].coordinate = x[i];
       return at;
     };
     const auto found =
@@ -76,16 +78,18 @@ class Refinement {
     return FoundPose{at, evaluation->angles, evaluation->score};
   }
 
+  // Logarithm of the score, its sign such that larger is better, and the distances from what limits the pose.
   std::optional<numerics::ConstrainedValue> value(const PlanePoint& at, double power) const {
     const auto evaluation = scanner_.evaluate(at);
     if (!evaluation || !(evaluation->score > 0)) return std::nullopt;
     numerics::ConstrainedValue result;
     double logarithm = std::log(evaluation->score);
     if (power > 0) {
+      // The power mean of the compliances in place of the largest.
       const Eigen::Vector3d compliances = principal_compliances(evaluation->compliance);
       logarithm -= std::log((compliances / compliances[0]).cwiseMax(0.0).array().pow(power).sum()) / power;
     }
-    result.value = task_.stiffness.larger_is_better() ? logarithm : -logarithm;
+    result.value = task_.stiffness.index->larger_is_better ? logarithm : -logarithm;
     const bool away = task_.singularity_margin > 0;
     result.constraints.resize(kJoints + (away ? 1 : 0));
     for (int j = 0; j < kJoints; ++j) {
@@ -101,11 +105,12 @@ class Refinement {
 
   const PoseScanner& scanner_;
   const PoseTask& task_;
+  std::vector<Freedom> free_;
 };
 
 }  // namespace
 
-bool equal_scores(double a, double b) { return std::abs(a - b) <= 1e-7 * std::abs(b); }
+bool equal_scores(double a, double b) { return std::abs(a - b) <= kEqualScores * std::abs(b); }
 
 std::optional<FoundPose> refined_pose(const PoseScanner& scanner, const PlanePoint& start, double radius) {
   return Refinement(scanner).from(start, radius);

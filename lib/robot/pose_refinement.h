@@ -1,4 +1,4 @@
-// The last step of a pose search: from a sample to the local optimum.
+// The last step of a pose search: from a sample to the local optimum. README.md, "Refinement".
 #pragma once
 
 #include <optional>
@@ -11,8 +11,8 @@ namespace stablecut::robot {
 bool equal_scores(double a, double b);
 
 /// The local optimum of the start's branch over those of x, y (m) and redundancy (rad) that are free and
-/// matter, within the task's intervals, limits and margins; first steps of size `radius`. Nothing when no
-/// allowed point is found from there.
+/// matter, within the task's intervals, limits and margins; first steps of size `radius` (m and rad). Nothing
+/// when no allowed point is found from there.
 std::optional<FoundPose> refined_pose(const PoseScanner& scanner, const PlanePoint& start, double radius);
 
 }  // namespace stablecut::robot

@@ -9,15 +9,17 @@
 namespace stablecut::robot {
 namespace {
 
+constexpr double kGradientStep = 1e-5;  // of a compliance
+constexpr double kRigid = 1e-12;        // of the largest principal compliance: below, rounding
+
 // d value(C) / d c_j by central differences; C is linear in the compliances.
 template <typename Value>
 JointAngles gradient(const RobotPose& pose, const JointAngles& joint_compliance, const Value& value) {
-  constexpr double kStep = 1e-5;  // relative
   const auto columns = translational_jacobian(pose, pose.tool.translation());
   const Eigen::Matrix3d compliance = translational_compliance(pose, joint_compliance);
   JointAngles result;
   for (int j = 0; j < kJoints; ++j) {
-    const double step = kStep * joint_compliance[j];
+    const double step = kGradientStep * joint_compliance[j];
     const Eigen::Matrix3d change = step * columns.col(j) * columns.col(j).transpose();
     result[j] = (value(compliance + change) - value(compliance - change)) / (2 * step);
   }
@@ -42,17 +44,17 @@ PoseReport report_pose(const Robot& robot, const JointAngles& angles, const Stif
   report.score = stiffness_score(compliance, axes, task);
   report.principal_compliance = principal_compliances(compliance);
   // Rounding leaves about 1e-16 of the compliance where the arm cannot yield at all.
-  const double rigid = 1e-12 * report.principal_compliance[0];
+  const double rigid = kRigid * report.principal_compliance[0];
   report.principal_compliance =
       (report.principal_compliance.array() > rigid).select(report.principal_compliance, 0.0);
   for (int i = 0; i < 3; ++i) {
     const double yielded = (compliance * axes.col(i)).norm();
     report.directional_stiffness[i] = yielded > rigid ? 1 / yielded : std::numeric_limits<double>::infinity();
   }
-  const bool all = task.index == StiffnessIndex::kCombined, axial = task.index == StiffnessIndex::kAxial;
-  if ((all && !report.directional_stiffness.allFinite()) ||
-      (axial && std::isinf(report.directional_stiffness[2]))) {
-    report.score = std::numeric_limits<double>::quiet_NaN();
+  for (int i = 0; i < 3; ++i) {
+    if (task.index->along[i] && std::isinf(report.directional_stiffness[i])) {
+      report.score = std::numeric_limits<double>::quiet_NaN();
+    }
   }
   report.limit_margin_rad = limit_margin_rad(robot, angles);
   report.singularity_margin = singularity_margin(pose);
@@ -74,7 +76,7 @@ PoseReport report_pose(const Robot& robot, const JointAngles& angles, const Stif
 
 double probability_better(const PoseReport& a, const PoseReport& b, const StiffnessTask& task,
                           const Matrix6d& covariance) {
-  const double lead = (a.score - b.score) * (task.larger_is_better() ? 1 : -1);
+  const double lead = (a.score - b.score) * (task.index->larger_is_better ? 1 : -1);
   const double spread = deviation(a.score_gradient - b.score_gradient, covariance);
   if (!(spread > 0)) return lead > 0 ? 1 : lead < 0 ? 0 : 0.5;
   return numerics::normal_cdf(lead / spread);

@@ -1,11 +1,11 @@
-// All that is said of one pose.
+// All that is said of one pose. README.md, "Uncertainty of a score".
 #pragma once
 
 #include <Eigen/Core>
 #include <optional>
 
-#include "robot/compliance.h"
 #include "robot/joint_stiffness.h"
+#include "robot/stiffness_index.h"
 
 namespace stablecut::robot {
 
@@ -13,15 +13,15 @@ struct PoseReport {
   JointAngles angles;
   Eigen::Isometry3d tool;     ///< base frame, m
   double redundancy_rad = 0;  ///< about the tool's own axis
-  /// N/m, or m for a deflection; NaN where the arm cannot yield in a direction that the index looks at.
+  /// SI units; NaN where the arm cannot yield in a direction that the index takes into account.
   double score = 0;
   Eigen::Vector3d principal_compliance;  ///< m/N, largest first; 0 where the arm cannot yield
   /// Along the tool's x, y, z, N/m; infinite where the arm cannot yield (at a singular pose).
   Eigen::Vector3d directional_stiffness;
   std::optional<Eigen::Vector3d> deflection_m;  ///< under the force, base frame
   double limit_margin_rad = 0;
-  double singularity_margin = 0;
-  /// By linear propagation of the compliances' covariance.
+  double singularity_margin = 0;  ///< singularity_margin() of the pose
+  /// Standard deviations by linear propagation of the compliances' covariance [JCGM2008, 5.2].
   std::optional<double> score_std, deflection_std_m;
   JointAngles score_gradient;  ///< d score / d compliance
 };
@@ -31,7 +31,7 @@ struct PoseReport {
 PoseReport report_pose(const Robot& robot, const JointAngles& angles, const StiffnessTask& task,
                        const JointAngles& joint_compliance, const std::optional<Matrix6d>& covariance);
 
-/// Probability that pose a is better than pose b by the task's index, given the covariance.
+/// Probability that pose a is better than pose b by the task's index, for normal errors of that covariance.
 double probability_better(const PoseReport& a, const PoseReport& b, const StiffnessTask& task,
                           const Matrix6d& covariance);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "base/error.h"
 #include "base/units.h"
@@ -11,47 +12,6 @@ namespace stablecut::robot {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-// Scores by the lanes' compliances, without leaving the home frame.
-class ArmScores {
- public:
-  ArmScores(const StiffnessTask& task, const double compliance[6][kArms]) : task_(task), c_(compliance) {}
-
-  // `axes`: the tool's x, y, z; `force`: what acts, for kDeflection; both in the home frame.
-  void merits(const Eigen::Matrix3d& axes, const Eigen::Vector3d& force, double merit[kArms]) const {
-    switch (task_.index) {
-      case StiffnessIndex::kCombined:
-        for (int i = 0; i < kArms; ++i) {
-          merit[i] =
-              std::sqrt(1 / squared_displacement(axes.col(0), i) + 1 / squared_displacement(axes.col(1), i) +
-                        1 / squared_displacement(axes.col(2), i));
-        }
-        return;
-      case StiffnessIndex::kWeakest: {
-        largest_arm_compliances(c_, merit);
-        for (int i = 0; i < kArms; ++i) merit[i] = 1 / merit[i];
-        return;
-      }
-      case StiffnessIndex::kAxial:
-        for (int i = 0; i < kArms; ++i) merit[i] = 1 / std::sqrt(squared_displacement(axes.col(2), i));
-        return;
-      case StiffnessIndex::kDeflection:
-        for (int i = 0; i < kArms; ++i) merit[i] = -std::sqrt(squared_displacement(force, i));
-        return;
-    }
-  }
-
- private:
-  double squared_displacement(const Eigen::Ref<const Eigen::Vector3d>& f, int i) const {
-    const double x = c_[0][i] * f[0] + c_[1][i] * f[1] + c_[2][i] * f[2];
-    const double y = c_[1][i] * f[0] + c_[3][i] * f[1] + c_[4][i] * f[2];
-    const double z = c_[2][i] * f[0] + c_[4][i] * f[1] + c_[5][i] * f[2];
-    return x * x + y * y + z * z;
-  }
-
-  const StiffnessTask& task_;
-  const double (*c_)[kArms];
-};
 
 }  // namespace
 
@@ -65,66 +25,70 @@ std::optional<ScanBest> PointScan::best() const {
 
 PoseScanner::PoseScanner(const Robot& robot, const PoseTask& task)
     : robot_(robot), task_(task), inverse_(robot), coaxial_(tool_alignment(robot).coaxial()) {
-  if (task.stiffness.index == StiffnessIndex::kDeflection && !task.stiffness.force_n) {
-    throw InvalidArgument("force: missing: expected a force for the index deflection");
+  if (task.stiffness.index->needs_force && !task.stiffness.force_n) {
+    throw InvalidArgument(std::string("force: missing: expected a force for the index ") +
+                          task.stiffness.index->name);
   }
   const double along = robot.tool_in_frame6().linear()(2, 2) > 0 ? 1 : -1;
   turn_sense_ = along * robot.joints[5].theta_sign;
+  const auto to_home = inverse_.home_from_base().linear();
   for (int i = 0; i < task.redundancy.count; ++i) {
     const double turn = task.redundancy.at(i);
     const Eigen::Isometry3d tool = tool_frame(Eigen::Vector3d::Zero(), task.tool_axis, turn);
-    samples_.push_back({turn, inverse_.target_of(tool), inverse_.home_from_base().linear() * tool.linear()});
+    Sample sample{turn, inverse_.target_of(tool), to_home * tool.linear(), Eigen::Vector3d::Zero()};
+    if (const auto& force = task.stiffness.force_n) {
+      if (task.stiffness.force_in_tool)
+        sample.force = sample.axes * *force;
+      else
+        sample.force = to_home * *force;
+    }
+    samples_.push_back(sample);
   }
 }
 
-// Calls use(candidate) for every sample and branch within reach that keeps the limit margin; the order is
-// that of the samples. Also finds what is nearest to the limits.
-template <typename Use>
-void PoseScanner::visit(double x, double y, PointScan& result, const Use& use) const {
-  const Eigen::Vector3d point = task_.plane.at(x, y);
+void PoseScanner::solve(const Sample& sample, const Eigen::Vector3d& point, ArmLanes& lanes) const {
+  ArmTarget target = sample.target;
+  for (int d = 0; d < 3; ++d) target.origin[d] += point[d];
+  solve_arms(inverse_.constants(), target, lanes);
+}
+
+bool PoseScanner::any_keeps_limits(const double margin[kBranches]) const {
+  return std::any_of(margin, margin + kBranches, [&](double m) { return m >= task_.limit_margin_rad; });
+}
+
+void PoseScanner::arm_merits(const Sample& sample, const double compliance[6][kArms],
+                             double merit[kArms]) const {
+  const StiffnessIndex& index = *task_.stiffness.index;
+  index.arm_scores(compliance, sample.axes, sample.force, merit);
+  if (index.larger_is_better) return;
+  for (int arm = 0; arm < kArms; ++arm) merit[arm] = -merit[arm];
+}
+
+template <typename Take>
+void PoseScanner::scan_samples(const Eigen::Vector3d& point, const Take& take) const {
   const Eigen::Vector3d home_point = inverse_.home_from_base() * point;
-  const StiffnessTask& stiffness = task_.stiffness;
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();
-  if (stiffness.force_n && !stiffness.force_in_tool) {
-    force = inverse_.home_from_base().linear() * *stiffness.force_n;
-  }
-  const auto solve = [&](const Sample& sample, ArmLanes& lanes) {
-    ArmTarget target = sample.target;
-    for (int d = 0; d < 3; ++d) target.origin[d] += point[d];
-    solve_arms(inverse_.constants(), target, lanes);
-  };
   ArmLanes lanes;
   double compliance[6][kArms], merit[kArms] = {};
-  const auto score = [&](const Sample& sample) {
-    if (stiffness.force_n && stiffness.force_in_tool) force = sample.axes * *stiffness.force_n;
-    ArmScores(stiffness, compliance).merits(sample.axes, force, merit);
-  };
-  const auto offer = [&](double margin, int sample, int branch) {
-    if (margin > result.best_limit_margin_rad) {
-      result.best_limit_margin_rad = margin;
-      result.least_outside = {0, {x, y, samples_[sample].turn, branch}};
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    solve(samples_[i], point, lanes);
+    if (any_keeps_limits(lanes.limit_margin)) {
+      arm_compliances(lanes, home_point.data(), task_.joint_compliance.data(), compliance);
+      arm_merits(samples_[i], compliance, merit);
     }
-    if (margin >= task_.limit_margin_rad) use(Candidate{merit[branch % kArms], margin, sample, branch});
-  };
-  const auto within = [&](const double margin[kBranches]) {
-    return std::any_of(margin, margin + kBranches, [&](double m) { return m >= task_.limit_margin_rad; });
-  };
-  const int count = static_cast<int>(samples_.size());
-  if (!coaxial_) {
-    for (int i = 0; i < count; ++i) {
-      const Sample& sample = samples_[i];
-      solve(sample, lanes);
-      if (within(lanes.limit_margin)) {
-        arm_compliances(lanes, home_point.data(), task_.joint_compliance.data(), compliance);
-        score(sample);
-      }
-      for (int b = 0; b < kBranches; ++b) offer(lanes.limit_margin[b], i, b);
+    for (int b = 0; b < kBranches; ++b) {
+      take(Candidate{merit[b % kArms], lanes.limit_margin[b], static_cast<int>(i), b});
     }
-    return;
   }
-  // Joint 6 alone turns the tool: one arm solution and one compliance for all redundancy angles.
+}
+
+// Joint 6 alone turns a coaxial tool: one arm solution and one compliance for all redundancy angles.
+template <typename Take>
+void PoseScanner::scan_coaxial_samples(const Eigen::Vector3d& point, const Take& take) const {
+  const Eigen::Vector3d home_point = inverse_.home_from_base() * point;
   const ArmConstants& k = inverse_.constants();
-  solve(samples_.front(), lanes);
+  ArmLanes lanes;
+  double compliance[6][kArms], merit[kArms] = {};
+  solve(samples_.front(), point, lanes);
   double margin_of_five[kBranches];
   for (int b = 0; b < kBranches; ++b) {
     margin_of_five[b] = std::isfinite(lanes.limit_margin[b]) ? kInfinity : -kInfinity;
@@ -132,21 +96,41 @@ void PoseScanner::visit(double x, double y, PointScan& result, const Use& use) c
       margin_of_five[b] = std::min(margin_of_five[b], robot_.joints[j].margin_rad(lanes.angle[j][b]));
     }
   }
-  if (!within(margin_of_five)) {
-    for (int b = 0; b < kBranches; ++b) offer(lanes.limit_margin[b], 0, b);
+  if (!any_keeps_limits(margin_of_five)) {
+    for (int b = 0; b < kBranches; ++b) take(Candidate{0, lanes.limit_margin[b], 0, b});
     return;
   }
   arm_compliances(lanes, home_point.data(), task_.joint_compliance.data(), compliance);
-  score(samples_.front());
-  for (int i = 0; i < count; ++i) {
+  arm_merits(samples_.front(), compliance, merit);
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
     const Sample& sample = samples_[i];
-    if (i > 0 && !stiffness.blind_to_tool_turn()) score(sample);
+    if (i > 0 && task_.stiffness.feels_tool_turn()) arm_merits(sample, compliance, merit);
     for (int b = 0; b < kBranches; ++b) {
       double q6 = lanes.angle[5][b] + turn_sense_ * (sample.turn - samples_.front().turn);
       q6 += kTwoPi * std::nearbyint((k.middle[5] - q6) / kTwoPi);
-      offer(std::min(margin_of_five[b], robot_.joints[5].margin_rad(q6)), i, b);
+      take(Candidate{merit[b % kArms], std::min(margin_of_five[b], robot_.joints[5].margin_rad(q6)),
+                     static_cast<int>(i), b});
     }
   }
+}
+
+// Calls take_allowed(candidate) for every sample and branch within reach that keeps the limit margin, in the
+// order of the samples, and finds the most central pose of all.
+template <typename TakeAllowed>
+void PoseScanner::for_each_allowed(double x, double y, PointScan& result,
+                                   const TakeAllowed& take_allowed) const {
+  const Eigen::Vector3d point = task_.plane.at(x, y);
+  const auto take = [&](const Candidate& candidate) {
+    if (candidate.limit_margin > result.best_limit_margin_rad) {
+      result.best_limit_margin_rad = candidate.limit_margin;
+      result.most_central = place_of(candidate, x, y).at;
+    }
+    if (candidate.limit_margin >= task_.limit_margin_rad) take_allowed(candidate);
+  };
+  if (coaxial_)
+    scan_coaxial_samples(point, take);
+  else
+    scan_samples(point, take);
 }
 
 bool PoseScanner::better(const Candidate& a, const Candidate& b) const {
@@ -170,7 +154,7 @@ PointScan PoseScanner::scan(double x, double y) const {
   PointScan result;
   result.best_limit_margin_rad = -kInfinity;
   std::array<std::optional<Candidate>, kArms> best;
-  visit(x, y, result, [&](const Candidate& candidate) {
+  for_each_allowed(x, y, result, [&](const Candidate& candidate) {
     auto& arm = best[candidate.branch % kArms];
     if (!arm || better(candidate, *arm)) arm = candidate;
   });
@@ -186,10 +170,11 @@ PointScan PoseScanner::scan(double x, double y) const {
   return result;
 }
 
+// The best of an arm that is away from singularities, where the best of all is not.
 std::optional<ScanBest> PoseScanner::next_best(double x, double y, int arm) const {
   std::vector<Candidate> candidates;
   PointScan ignored;
-  visit(x, y, ignored, [&](const Candidate& candidate) {
+  for_each_allowed(x, y, ignored, [&](const Candidate& candidate) {
     if (candidate.branch % kArms == arm) candidates.push_back(candidate);
   });
   std::stable_sort(candidates.begin(), candidates.end(),

@@ -3,20 +3,25 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
 #include "base/units.h"
 
 namespace stablecut::robot {
+namespace {
+
+constexpr double kLargestGap = 5 * kPi / 180;  // rad that a full turn may leave out
+constexpr double kGapRounding = 1e-9;          // rad
+
+}  // namespace
 
 bool PoseTask::full_turn() const {
-  constexpr double kLargestGap = 5 * kPi / 180;
   const double gap = kTwoPi - (redundancy.to - redundancy.from);
-  return gap <= std::min(redundancy.step(), kLargestGap) + 1e-9;
+  return gap <= std::min(redundancy.step(), kLargestGap) + kGapRounding;
 }
 
 PlaneReach plane_reach(const Robot& robot, const Plane& plane, const Eigen::Vector3d& tool_axis) {
-  // The wrist centre lies within a ball about joint 2's axis' foot on axis 1, the tool point within a known
-  // distance of the wrist centre: along the tool axis exactly, across it in any direction.
+  // The wrist centre lies in a ball about the origin of frame 1, whose radius is the length of all links
+  // after it. From the wrist centre the tool point lies a known distance along the tool axis, and a known
+  // distance across it in a direction that depends on the redundancy angle.
   const auto& j = robot.joints;
   const double arm = std::abs(j[1].a_m) + std::abs(j[1].d_m) + std::abs(j[2].a_m) + std::abs(j[2].d_m) +
                      std::hypot(j[3].a_m, j[3].d_m) + std::hypot(j[4].a_m, j[4].d_m) + std::abs(j[5].a_m);
@@ -27,7 +32,7 @@ PlaneReach plane_reach(const Robot& robot, const Plane& plane, const Eigen::Vect
   const Eigen::Vector3d centre = home + from_wrist.z() * tool_axis - plane.origin;
   const double radius = arm + from_wrist.head<2>().norm();
   const double distance = centre.dot(plane.x_axis.cross(plane.y_axis));
-  if (std::abs(distance) > radius) throw NoAnswer(kOutOfReach);
+  if (std::abs(distance) > radius) throw NoPose({Obstacle::Kind::kOutOfReach});
   const double across = std::sqrt(radius * radius - distance * distance);
   const double x = centre.dot(plane.x_axis), y = centre.dot(plane.y_axis);
   return {{x - across, x + across, 2}, {y - across, y + across, 2}};

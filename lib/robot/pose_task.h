@@ -1,11 +1,13 @@
-// The question that a pose search answers: where the tool may stand, how, and what counts as stiff.
+// The question that a pose search answers: where the tool may stand, how it may be turned, and what counts as
+// stiff.
 #pragma once
 
 #include <Eigen/Core>
 
+#include "base/error.h"
 #include "base/range.h"
-#include "robot/compliance.h"
 #include "robot/robot.h"
+#include "robot/stiffness_index.h"
 
 namespace stablecut::robot {
 
@@ -25,10 +27,11 @@ struct PoseTask {
   Range redundancy;  ///< turn about the tool axis, rad (redundancy_angle())
   StiffnessTask stiffness;
   JointAngles joint_compliance = JointAngles::Zero();  ///< rad/(N m)
-  double limit_margin_rad = 0;                         ///< to keep from every joint limit
-  double singularity_margin = 0;                       ///< least singular value of J to keep
+  double limit_margin_rad = 0;                         ///< least distance to keep from every joint limit
+  double singularity_margin = 0;                       ///< least singularity_margin() to keep
 
-  /// True when the redundancy interval closes to the full turn: its gap is at most a step and 5 degrees.
+  /// True when the redundancy interval stands for the full turn: what it leaves out is at most one of its
+  /// steps and at most 5 degrees.
   bool full_turn() const;
 };
 
@@ -43,15 +46,35 @@ struct PlanePoint {
 struct FoundPose {
   PlanePoint at;
   JointAngles angles;  ///< controller angles, rad
-  double score = 0;    ///< N/m, or m for a deflection
+  double score = 0;    ///< of the task's index, SI units
 };
 
-/// What NoAnswer says where nothing of a plane can be reached.
-inline constexpr const char* kOutOfReach =
-    "no reachable pose: nothing of the plane is within the arm's reach with this tool axis";
+/// What keeps a search from finding any pose.
+struct Obstacle {
+  enum class Kind {
+    kOutOfReach,   ///< no point of the plane is within the arm's reach with this tool axis
+    kJointLimit,   ///< every pose violates a joint limit or its margin
+    kSingularity,  ///< every pose that the limits allow is nearer to a singularity than the margin
+  };
+  Kind kind = Kind::kOutOfReach;
+  /// Of kJointLimit: where the limits are missed by the least, the joint (index) that misses them and its
+  /// distance to the limit, negative outside.
+  int joint = 0;
+  double margin_rad = 0;
+};
+
+/// A search without an answer, and why.
+class NoPose : public NoAnswer {
+ public:
+  explicit NoPose(const Obstacle& obstacle) : NoAnswer("no reachable pose"), obstacle_(obstacle) {}
+  const Obstacle& obstacle() const { return obstacle_; }
+
+ private:
+  Obstacle obstacle_;
+};
 
 /// Bounds in the plane's coordinates (m) of what the tool point can reach with the tool axis as it is, limits
-/// aside: not less than that, perhaps more. Throws NoAnswer when the plane is out of reach.
+/// aside. They enclose what can be reached and may be wider. Throws NoPose when the plane is out of reach.
 struct PlaneReach {
   Range x, y;
 };

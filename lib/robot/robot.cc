@@ -7,14 +7,20 @@
 #include "base/units.h"
 
 namespace stablecut::robot {
+namespace {
+
+constexpr double kWholeRounding = 1e-14;      // of the sine or cosine of a right angle
+constexpr double kAlignmentTolerance = 1e-9;  // m, and the sine of an angle
+
+}  // namespace
 
 void Joint::set_alpha(double rad) {
-  const auto exact = [](double value) {
-    return std::abs(value - std::nearbyint(value)) < 1e-14 ? std::nearbyint(value) : value;
+  const auto without_rounding = [](double value) {
+    return std::abs(value - std::nearbyint(value)) < kWholeRounding ? std::nearbyint(value) : value;
   };
   alpha_rad_ = rad;
-  cos_alpha_ = exact(std::cos(rad));
-  sin_alpha_ = exact(std::sin(rad));
+  cos_alpha_ = without_rounding(std::cos(rad));
+  sin_alpha_ = without_rounding(std::sin(rad));
 }
 
 JointAngles most_central_copies(const Robot& robot, const JointAngles& angles) {
@@ -32,10 +38,9 @@ double limit_margin_rad(const Robot& robot, const JointAngles& angles) {
 }
 
 ToolAlignment tool_alignment(const Robot& robot) {
-  constexpr double kTolerance = 1e-9;
   const Eigen::Isometry3d tool = robot.tool_in_frame6();
-  return {tool.translation().head<2>().norm() <= kTolerance,
-          tool.linear().col(2).head<2>().norm() <= kTolerance};
+  return {tool.translation().head<2>().norm() <= kAlignmentTolerance,
+          tool.linear().col(2).head<2>().norm() <= kAlignmentTolerance};
 }
 
 }  // namespace stablecut::robot

@@ -1,4 +1,5 @@
-// A serial robot with six turning joints, in modified Denavit-Hartenberg form (Yi et al., eq. 1, corrected).
+// A serial robot with six turning joints, in modified Denavit-Hartenberg form [Craig2018], [Yi2025, eq. 1].
+// README.md, "Robot", has the notation.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,14 +18,15 @@ using JointAngles = Eigen::Matrix<double, kJoints, 1>;
 
 struct Joint {
   std::string name;
-  double a_m = 0;  ///< of link i-1: distance between axes i-1 and i, along x of frame i-1
-  double d_m = 0;  ///< along axis i
-  double theta_sign = 1;
+  double a_m = 0;         ///< of link i-1: distance between axes i-1 and i, along x of frame i-1
+  double d_m = 0;         ///< along axis i
+  double theta_sign = 1;  ///< +1 or -1
   double theta_offset_rad = 0;
   double min_rad = -2 * std::numbers::pi;  ///< of the controller angle; limits are finite
   double max_rad = 2 * std::numbers::pi;
 
-  /// Of link i-1: the turn between axes i-1 and i about x of frame i-1; right angles are taken exactly.
+  /// Of link i-1: the turn from axis i-1 to axis i about x of frame i-1. A sine or cosine within 1e-14 of a
+  /// whole number is taken as that number.
   void set_alpha(double rad);
   double alpha_rad() const { return alpha_rad_; }
   double cos_alpha() const { return cos_alpha_; }
@@ -43,8 +45,8 @@ struct Joint {
 struct Robot {
   std::array<Joint, kJoints> joints;
   Eigen::Isometry3d flange = Eigen::Isometry3d::Identity();  ///< in frame 6
-  Eigen::Isometry3d tool =
-      Eigen::Isometry3d::Identity();  ///< in the flange frame; origin: tool point, z: axis
+  /// In the flange frame; its origin is the tool point and its z axis the tool axis.
+  Eigen::Isometry3d tool = Eigen::Isometry3d::Identity();
 
   Eigen::Isometry3d tool_in_frame6() const { return flange * tool; }
 };
@@ -56,14 +58,14 @@ JointAngles most_central_copies(const Robot& robot, const JointAngles& angles);
 /// The least distance of any joint to its nearer limit, rad; negative outside.
 double limit_margin_rad(const Robot& robot, const JointAngles& angles);
 
-/// What the tool point and axis have to do with joint 6.
+/// How the tool point and the tool axis lie to axis 6.
 struct ToolAlignment {
   bool point_on_axis = false;  ///< the tool point lies on axis 6: joint 6 cannot move it
   bool axis_parallel = false;  ///< the tool axis is parallel to axis 6: joint 6 turns the tool about it
   bool coaxial() const { return point_on_axis && axis_parallel; }
 };
 
-/// Within 1e-9 m and 1e-9 rad.
+/// Both within 1e-9 (m, and the sine of an angle).
 ToolAlignment tool_alignment(const Robot& robot);
 
 }  // namespace stablecut::robot

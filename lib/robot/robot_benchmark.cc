@@ -163,7 +163,7 @@ int main() {
   std::printf("map of the plane z = 1.6 m, 20 mm, 5 degrees, all branches, two threads\n");
   for (const double offset : {0.0, 0.2}) {
     const Robot with_tool = with_tool_offset(robot, offset);
-    PoseTask task = tool_down(with_tool, 1.6, StiffnessIndex::kCombined, 2);
+    PoseTask task = tool_down(with_tool, 1.6, "combined", 2);
     task.x = task.y = {-2.8, 2.8, 281};
     long reached = 0;
     const double map_time = seconds([&] {
@@ -173,9 +173,8 @@ int main() {
     std::printf("  %s tool: %.2f s for %.2f million tool frames, %ld of %d points reached\n",
                 offset > 0 ? "offset  " : "coaxial ", map_time, 281 * 281 * 72e-6, reached, 281 * 281);
   }
-  const double search_time = seconds([&] {
-    sink += search_poses(robot, tool_down(robot, 1.6, StiffnessIndex::kCombined, 2), 5, 2).best.score;
-  });
+  const double search_time =
+      seconds([&] { sink += search_poses(robot, tool_down(robot, 1.6, "combined", 2), 5, 2).best.score; });
   std::printf("search of the whole plane with refinement: %.3f s\n", search_time);
   return sink == 0;
 }

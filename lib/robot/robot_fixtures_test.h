@@ -56,7 +56,7 @@ inline JointAngles random_angles(const Robot& robot, std::mt19937_64& generator)
 }
 
 /// Tool straight down at a height (m), whole plane, all redundancy angles, 588.6 N down (the paper's 60 kg).
-inline PoseTask tool_down(const Robot& robot, double height_m, StiffnessIndex index,
+inline PoseTask tool_down(const Robot& robot, double height_m, std::string_view index,
                           double limit_margin_deg) {
   PoseTask task;
   task.plane.origin.z() = height_m;
@@ -64,7 +64,7 @@ inline PoseTask tool_down(const Robot& robot, double height_m, StiffnessIndex in
   task.x = {reach.x.from, reach.x.to, 64};
   task.y = {reach.y.from, reach.y.to, 64};
   task.redundancy = {-kPi, kPi - kPi / 36, 72};
-  task.stiffness.index = index;
+  task.stiffness.index = &stiffness_index(index);
   task.stiffness.force_n = Eigen::Vector3d(0, 0, -588.6);
   task.joint_compliance = k_theta_2d().cwiseInverse();
   task.limit_margin_rad = radians_from_degrees(limit_margin_deg);

@@ -140,8 +140,8 @@ Json identification_to_json(const IdentificationDocument& document, const robot:
   }
   result["degrees_of_freedom"] = number_or_null(found.degrees_of_freedom);
   if (found.chi_square_per_dof) result["chi_square_per_dof"] = *found.chi_square_per_dof;
-  Json cross = {{"rms_um", nullptr}, {"samples_not_predicted", found.samples_not_predicted}};
-  if (found.cross_validation_rms_m) cross["rms_um"] = *found.cross_validation_rms_m * 1e6;
+  Json cross = {{"rms_um", nullptr}, {"samples_not_predicted", found.cross_validation.samples_not_predicted}};
+  if (found.cross_validation.rms_m) cross["rms_um"] = *found.cross_validation.rms_m * 1e6;
   result["cross_validation"] = std::move(cross);
   result["samples"] = document.places.size();
   result["loss"] = document.options.huber ? "huber" : "squared";

@@ -10,23 +10,8 @@
 namespace stablecut::document {
 namespace {
 
-double in_score_unit(double score, robot::StiffnessIndex index) {
-  return index == robot::StiffnessIndex::kDeflection ? score * 1e6 : score;
-}
-
-// The index's name and the unit of its score.
-Json index_to_json(robot::StiffnessIndex index) {
-  switch (index) {
-    case robot::StiffnessIndex::kCombined:
-      return {{"name", "combined"}, {"unit", "N/m"}};
-    case robot::StiffnessIndex::kWeakest:
-      return {{"name", "weakest"}, {"unit", "N/m"}};
-    case robot::StiffnessIndex::kAxial:
-      return {{"name", "axial"}, {"unit", "N/m"}};
-    case robot::StiffnessIndex::kDeflection:
-      break;
-  }
-  return {{"name", "deflection"}, {"unit", "um"}};
+Json index_to_json(const robot::StiffnessIndex& index) {
+  return {{"name", index.name}, {"unit", index.unit}};
 }
 
 Json to_json(const Eigen::Vector3d& v) { return Json::array({v[0], v[1], v[2]}); }
@@ -35,8 +20,8 @@ Json to_json(const robot::PoseReport& report, const robot::StiffnessTask& task) 
   Json pose = {{"joints_deg", joint_angles_to_json(report.angles)},
                {"tcp_mm", to_json(report.tool.translation() * 1e3)},
                {"redundancy_deg", document_degrees(report.redundancy_rad)},
-               {"score", number_or_null(in_score_unit(report.score, task.index))}};
-  if (report.score_std) pose["score_std"] = in_score_unit(*report.score_std, task.index);
+               {"score", number_or_null(report.score * task.index->units_per_score)}};
+  if (report.score_std) pose["score_std"] = *report.score_std * task.index->units_per_score;
   Json principal = Json::array();
   for (const double compliance : report.principal_compliance) {
     principal.push_back(compliance > 0 ? Json(1 / compliance) : Json(nullptr));
@@ -107,7 +92,7 @@ Json samples_of(const Range& range) {
 }  // namespace
 
 Json pose_to_json(const PoseDocument& document, const robot::Robot& robot) {
-  Json result = {{"format", "stablecut/pose/1"}, {"index", index_to_json(document.task.index)}};
+  Json result = {{"format", "stablecut/pose/1"}, {"index", index_to_json(*document.task.index)}};
   add_plane(result, document.plane);
   const auto one = [&](const robot::PoseReport& report, const robot::FoundPose& found) {
     Json pose = to_json(report, document.task);
@@ -133,7 +118,7 @@ Json pose_to_json(const PoseDocument& document, const robot::Robot& robot) {
   for (std::size_t i = 0; i < document.sweep.redundancy_rad.size(); ++i) {
     angles.push_back(document_degrees(document.sweep.redundancy_rad[i]));
     const auto& score = document.sweep.score[i];
-    scores.push_back(score ? Json(in_score_unit(*score, document.task.index)) : Json(nullptr));
+    scores.push_back(score ? Json(*score * document.task.index->units_per_score) : Json(nullptr));
   }
   result["redundancy_sweep"] = {{"redundancy_deg", std::move(angles)}, {"score", std::move(scores)}};
   return result;
@@ -146,8 +131,8 @@ Json evaluation_to_json(const PoseDocument& document) {
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     if (std::isnan(poses[a].score) || std::isnan(poses[b].score))
       return !std::isnan(poses[a].score) && std::isnan(poses[b].score);
-    return document.task.larger_is_better() ? poses[a].score > poses[b].score
-                                            : poses[a].score < poses[b].score;
+    return document.task.index->larger_is_better ? poses[a].score > poses[b].score
+                                                 : poses[a].score < poses[b].score;
   });
   std::vector<int> rank(poses.size());
   for (std::size_t i = 0; i < order.size(); ++i) rank[order[i]] = static_cast<int>(i) + 1;
@@ -162,12 +147,12 @@ Json evaluation_to_json(const PoseDocument& document) {
     evaluated.push_back(std::move(pose));
   }
   return {{"format", "stablecut/pose/1"},
-          {"index", index_to_json(document.task.index)},
+          {"index", index_to_json(*document.task.index)},
           {"evaluated", std::move(evaluated)}};
 }
 
 Json pose_map_to_json(const robot::PoseMap& map, const robot::PoseTask& task, const PlaneDocument& plane) {
-  Json result = {{"format", "stablecut/pose-map/1"}, {"index", index_to_json(task.stiffness.index)}};
+  Json result = {{"format", "stablecut/pose-map/1"}, {"index", index_to_json(*task.stiffness.index)}};
   add_plane(result, plane);
   result["x_mm"] = samples_of(task.x);
   result["y_mm"] = samples_of(task.y);
@@ -175,7 +160,7 @@ Json pose_map_to_json(const robot::PoseMap& map, const robot::PoseTask& task, co
   const auto number = [&](const Eigen::MatrixXd& values, double factor) {
     return rows_of(rows, columns, [&](auto j, auto i) { return number_or_null(values(j, i) * factor); });
   };
-  result["score"] = number(map.score, in_score_unit(1, task.stiffness.index));
+  result["score"] = number(map.score, task.stiffness.index->units_per_score);
   result["redundancy_deg"] = rows_of(rows, columns, [&](auto j, auto i) {
     return number_or_null(document_degrees(map.redundancy_rad(j, i)));
   });

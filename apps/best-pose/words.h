@@ -1,0 +1,30 @@
+// What best-pose says about poses and robots: the facts of lib/robot in words.
+#pragma once
+
+#include <string>
+
+#include "document/text/data_error.h"
+#include "document/text/json_text.h"
+#include "robot/inverse.h"
+#include "robot/pose_report.h"
+#include "robot/pose_task.h"
+
+namespace stablecut {
+
+/// The names of the stiffness indices, separated by |.
+std::string index_names();
+/// What each of them is, for --help.
+std::string index_help();
+
+/// Why a search found no pose.
+std::string no_pose_text(const robot::Obstacle& obstacle, const robot::Robot& robot);
+
+/// The error for a robot without analytic inverse kinematics: place in the robot document, value and what was
+/// expected.
+document::DataError unsupported_robot(const robot::UnsupportedGeometry& bad, const robot::Robot& robot,
+                                      const document::Source& source);
+
+/// A warning that the redundancy angle cannot change the index.
+std::string idle_redundancy_text(const robot::Robot& robot, const robot::StiffnessIndex& index);
+
+}  // namespace stablecut

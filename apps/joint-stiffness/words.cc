@@ -1,0 +1,72 @@
+#include "words.h"
+
+#include "base/number_text.h"
+#include "base/units.h"
+#include "document/kinds/joint_stiffness_json.h"
+
+namespace stablecut {
+
+std::string nothing_identified_text(const robot::Identification& found, const robot::Robot& robot) {
+  std::string text = "no joint can be identified:";
+  for (int j = 0; j < robot::kJoints; ++j) {
+    text += (j > 0 ? ", " : " ") + robot.joints[j].name;
+    switch (found.verdict[j]) {
+      case robot::JointVerdict::kUnseen:
+        text += " is not seen by the loads and measurements";
+        break;
+      case robot::JointVerdict::kInseparable:
+        text += " cannot be told from other joints";
+        break;
+      case robot::JointVerdict::kUncertain:
+      case robot::JointVerdict::kIdentified:
+        text += " is too uncertain to be told from a rigid joint";
+        break;
+    }
+  }
+  if (found.moved_against_loads) {
+    text +=
+        "; the deflections point against the loads: expected how the robot moves when it is loaded, not how "
+        "it "
+        "comes back";
+  }
+  return text;
+}
+
+std::vector<std::string> identification_warnings(const robot::Identification& found,
+                                                 const robot::Robot& robot,
+                                                 const document::LoadSamplesDocument& samples,
+                                                 const std::string& source, bool huber) {
+  std::vector<std::string> warnings;
+  for (int j = 0; j < robot::kJoints; ++j) {
+    if (found.identified(j)) continue;
+    warnings.push_back("joint " + robot.joints[j].name +
+                       " is not identified: " + document::verdict_text(found.verdict[j]));
+  }
+  if (!found.deviations_known) {
+    warnings.push_back(source +
+                       ": as many unknowns as measured values: no standard deviations and no intervals");
+  }
+  if (found.deviations_contradicted) {
+    warnings.push_back(
+        source +
+        ": the residuals are too large for the stated standard deviations (chi-square per degree "
+        "of freedom " +
+        number_text(*found.chi_square_per_dof) + "): the standard deviations of the result were scaled up");
+  }
+  for (const robot::Outlier& outlier : found.outliers) {
+    warnings.push_back(source + ": " + samples.places[outlier.sample] + ": " +
+                       number_text(outlier.residual_m * 1e6, 3) + " um from the model, " +
+                       number_text(outlier.deviations, 3) + " standard deviations" +
+                       (huber ? "" : ": an outlier? (--loss huber gives such samples less weight)"));
+  }
+  return warnings;
+}
+
+std::string unit_warning(const document::LoadSamplesDocument& samples, const std::string& source) {
+  const double largest = robot::largest_deflection(samples.samples);
+  if (robot::plausible_deflection(largest)) return "";
+  return source + ": the largest deflection is " + number_text(mm_from_metres(largest), 3) +
+         " mm: are the units right?";
+}
+
+}  // namespace stablecut

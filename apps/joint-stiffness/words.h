@@ -1,0 +1,25 @@
+// What joint-stiffness says about an identification: the facts of lib/robot in words.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "document/kinds/load_samples_json.h"
+#include "robot/identification.h"
+#include "robot/robot.h"
+
+namespace stablecut {
+
+/// Why there is no answer where no joint could be identified.
+std::string nothing_identified_text(const robot::Identification& found, const robot::Robot& robot);
+
+/// Warnings of an identification, in the order in which they are given; `source` is the samples' name.
+std::vector<std::string> identification_warnings(const robot::Identification& found,
+                                                 const robot::Robot& robot,
+                                                 const document::LoadSamplesDocument& samples,
+                                                 const std::string& source, bool huber);
+
+/// A warning where no robot yields as much or as little as the samples say; empty where it may.
+std::string unit_warning(const document::LoadSamplesDocument& samples, const std::string& source);
+
+}  // namespace stablecut

@@ -1,0 +1,138 @@
+#include "robot/stiffness_index.h"
+
+#include <cmath>
+#include <string>
+
+#include "base/error.h"
+
+namespace stablecut::robot {
+namespace {
+
+using Compliance = const Eigen::Matrix3d&;
+using Tool = const Eigen::Matrix3d&;
+using Force = const Eigen::Vector3d&;
+using ArmCompliances = const double (*)[kArms];
+
+// |C f|^2 of one arm.
+double squared_displacement(ArmCompliances c, const Eigen::Ref<const Eigen::Vector3d>& f, int arm) {
+  const double x = c[0][arm] * f[0] + c[1][arm] * f[1] + c[2][arm] * f[2];
+  const double y = c[1][arm] * f[0] + c[3][arm] * f[1] + c[4][arm] * f[2];
+  const double z = c[2][arm] * f[0] + c[4][arm] * f[1] + c[5][arm] * f[2];
+  return x * x + y * y + z * z;
+}
+
+// sqrt(Kx^2 + Ky^2 + Kz^2) along the tool's axes ([Yi2025, eq. 15], corrected).
+double combined(Compliance compliance, Tool tool, Force) {
+  double sum = 0;
+  for (int i = 0; i < 3; ++i) sum += 1 / (compliance * tool.col(i)).squaredNorm();
+  return std::sqrt(sum);
+}
+void combined_of_arms(ArmCompliances c, Tool tool, Force, double score[kArms]) {
+  for (int arm = 0; arm < kArms; ++arm) {
+    score[arm] = std::sqrt(1 / squared_displacement(c, tool.col(0), arm) +
+                           1 / squared_displacement(c, tool.col(1), arm) +
+                           1 / squared_displacement(c, tool.col(2), arm));
+  }
+}
+
+// The least principal stiffness.
+double weakest(Compliance compliance, Tool, Force) { return 1 / principal_compliances(compliance)[0]; }
+void weakest_of_arms(ArmCompliances c, Tool, Force, double score[kArms]) {
+  largest_arm_compliances(c, score);
+  for (int arm = 0; arm < kArms; ++arm) score[arm] = 1 / score[arm];
+}
+
+// The stiffness along the tool axis [Yi2025, eq. 14].
+double axial(Compliance compliance, Tool tool, Force) {
+  return directional_stiffness(compliance, tool.col(2));
+}
+void axial_of_arms(ArmCompliances c, Tool tool, Force, double score[kArms]) {
+  for (int arm = 0; arm < kArms; ++arm) {
+    score[arm] = 1 / std::sqrt(squared_displacement(c, tool.col(2), arm));
+  }
+}
+
+// The length of the displacement under the force.
+double deflection(Compliance compliance, Tool, Force force) { return (compliance * force).norm(); }
+void deflection_of_arms(ArmCompliances c, Tool, Force force, double score[kArms]) {
+  for (int arm = 0; arm < kArms; ++arm) score[arm] = std::sqrt(squared_displacement(c, force, arm));
+}
+
+}  // namespace
+
+std::span<const StiffnessIndex> stiffness_indices() {
+  static constexpr StiffnessIndex indices[] = {
+      {.name = "combined",
+       .meaning = "sqrt(Kx^2 + Ky^2 + Kz^2) along the tool's axes, N/m",
+       .unit = "N/m",
+       .units_per_score = 1,
+       .larger_is_better = true,
+       .needs_force = false,
+       .feels_tool_turn = true,
+       .along = {true, true, true},
+       .has_ridge = false,
+       .score = combined,
+       .arm_scores = combined_of_arms},
+      {.name = "weakest",
+       .meaning = "the least principal stiffness, N/m",
+       .unit = "N/m",
+       .units_per_score = 1,
+       .larger_is_better = true,
+       .needs_force = false,
+       .feels_tool_turn = false,
+       .along = {},
+       .has_ridge = true,
+       .score = weakest,
+       .arm_scores = weakest_of_arms},
+      {.name = "axial",
+       .meaning = "the stiffness along the tool axis, N/m",
+       .unit = "N/m",
+       .units_per_score = 1,
+       .larger_is_better = true,
+       .needs_force = false,
+       .feels_tool_turn = false,
+       .along = {false, false, true},
+       .has_ridge = false,
+       .score = axial,
+       .arm_scores = axial_of_arms},
+      {.name = "deflection",
+       .meaning = "the deflection under the force, um, least",
+       .unit = "um",
+       .units_per_score = 1e6,
+       .larger_is_better = false,
+       .needs_force = true,
+       .feels_tool_turn = false,
+       .along = {},
+       .has_ridge = false,
+       .score = deflection,
+       .arm_scores = deflection_of_arms},
+  };
+  return indices;
+}
+
+const StiffnessIndex& stiffness_index(std::string_view name) {
+  for (const StiffnessIndex& index : stiffness_indices()) {
+    if (index.name == name) return index;
+  }
+  throw InvalidArgument("stiffness index: " + std::string(name) + ": unknown");
+}
+
+bool StiffnessTask::feels_tool_turn() const {
+  if (index->feels_tool_turn) return true;
+  // A force along the tool's z axis stays where it is.
+  return index->needs_force && force_in_tool && !(force_n && force_n->head<2>().isZero(0));
+}
+
+Eigen::Vector3d force_in_base(const StiffnessTask& task, const Eigen::Matrix3d& tool_rotation) {
+  if (!task.force_n) throw InvalidArgument("force: missing: expected a force");
+  return task.force_in_tool ? Eigen::Vector3d(tool_rotation * *task.force_n) : *task.force_n;
+}
+
+double stiffness_score(const Eigen::Matrix3d& compliance, const Eigen::Matrix3d& tool_rotation,
+                       const StiffnessTask& task) {
+  const Eigen::Vector3d force =
+      task.index->needs_force ? force_in_base(task, tool_rotation) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  return task.index->score(compliance, tool_rotation, force);
+}
+
+}  // namespace stablecut::robot

@@ -1,0 +1,68 @@
+// What a pose is judged by: the table of the stiffness indices. README.md, "Stiffness indices", says how an
+// index is added.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "robot/arm_lanes.h"
+#include "robot/compliance.h"
+
+namespace stablecut::robot {
+
+/// One way to judge how stiff a pose is, from the compliance C_tt of the tool point, the directions of the
+/// tool's axes and perhaps a force. A score is above 0, in SI units.
+struct StiffnessIndex {
+  const char* name;        ///< in options and documents
+  const char* meaning;     ///< for a help text
+  const char* unit;        ///< of the score in a document
+  double units_per_score;  ///< of that unit in one SI unit of the score
+
+  bool larger_is_better;
+  bool needs_force;  ///< the score is that of the task's force
+  /// The score changes when the tool turns about its own z axis while the compliance stays. (A force that is
+  /// given in the tool's frame is looked after by StiffnessTask.)
+  bool feels_tool_turn;
+  /// The tool's axes along which the index takes a stiffness. Where the arm cannot yield along one of them
+  /// that stiffness is infinite and the pose has no score.
+  std::array<bool, 3> along;
+  /// The score is the largest eigenvalue's: not smooth where the two largest principal compliances are equal.
+  bool has_ridge;
+
+  /// The score: `compliance` m/N, `tool` with the tool's axes as columns and `force` N, all in one frame.
+  double (*score)(const Eigen::Matrix3d& compliance, const Eigen::Matrix3d& tool,
+                  const Eigen::Vector3d& force);
+  /// The same for four arms from the entries of their compliances, as arm_compliances() gives them: what the
+  /// scan calls, millions of times.
+  void (*arm_scores)(const double compliance[6][kArms], const Eigen::Matrix3d& tool,
+                     const Eigen::Vector3d& force, double score[kArms]);
+};
+
+/// All of them; the first is the default.
+std::span<const StiffnessIndex> stiffness_indices();
+
+/// The index of that name. Throws InvalidArgument for an unknown name.
+const StiffnessIndex& stiffness_index(std::string_view name);
+
+/// An index with what it needs to be told.
+struct StiffnessTask {
+  const StiffnessIndex* index = &stiffness_indices().front();
+  std::optional<Eigen::Vector3d> force_n;  ///< on the tool point
+  bool force_in_tool = false;              ///< the force is given in the tool's frame, else in the base's
+
+  /// False when the score cannot change as the tool turns about its own axis while the compliance stays.
+  bool feels_tool_turn() const;
+};
+
+/// The task's force in the base frame, N, for a tool of that orientation (its axes in the base frame). Throws
+/// InvalidArgument when the task has none.
+Eigen::Vector3d force_in_base(const StiffnessTask& task, const Eigen::Matrix3d& tool_rotation);
+
+/// The score by the task's index, in SI units; `compliance` in the base frame, m/N. Throws InvalidArgument
+/// when the index needs a force and the task has none.
+double stiffness_score(const Eigen::Matrix3d& compliance, const Eigen::Matrix3d& tool_rotation,
+                       const StiffnessTask& task);
+
+}  // namespace stablecut::robot
