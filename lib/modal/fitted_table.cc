@@ -93,7 +93,7 @@ FittedTable fitted_table(const FitData& data, const std::vector<dynamics::Mode>&
   }
   // The weights are 1 / E|error|^2 of the complex value, so each part has half of that variance.
   const Likelihood likelihood(data, parameters, out_of_band(data, modes));
-  table.covariance = slope * (inverse_of(likelihood.evaluate(x, true)) / 2) * slope.transpose();
+  table.covariance = slope * (inverse_normal_matrix(likelihood.evaluate(x, true)) / 2) * slope.transpose();
   return table;
 }
 

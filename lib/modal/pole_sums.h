@@ -26,10 +26,10 @@ void add_pole_pair(const Eigen::VectorXcd& s, std::complex<double> pole, std::co
 
 /// Sums over the lines of phi times w, w h, w conj(h) and w |h|^2 (columns), for all poles and then for their
 /// conjugates: [2 poles x 4]. In one pass, without forming phi.
-Eigen::Matrix<std::complex<double>, Eigen::Dynamic, 4> curve_sums(const Eigen::VectorXcd& s,
-                                                                  const Eigen::VectorXcd& poles,
-                                                                  const Eigen::VectorXd& weight,
-                                                                  const Eigen::VectorXcd& h);
+Eigen::Matrix<std::complex<double>, Eigen::Dynamic, 4> data_pole_sums(const Eigen::VectorXcd& s,
+                                                                      const Eigen::VectorXcd& poles,
+                                                                      const Eigen::VectorXd& weight,
+                                                                      const Eigen::VectorXcd& h);
 
 /// Weighted inner products sum w conj(g_a) g_b over the lines, of functions g of the poles: phi of pole k is
 /// number 2 k, its square 2 k + 1; g' is the same function of the conjugate pole.

@@ -10,7 +10,7 @@ namespace stablecut::modal {
 
 /// Sums over the lines of one curve, for all poles and then for their conjugates: [2 poles]. phi is 1 / (i w
 /// - pole), w the weight and e = model - h.
-struct CurveSums {
+struct ErrorPoleSums {
   Eigen::VectorXcd weight;          ///< sum w phi
   Eigen::VectorXcd weight_squared;  ///< sum w phi^2
   Eigen::VectorXcd error;           ///< sum w e conj(phi)
@@ -25,7 +25,7 @@ class ResidualSums {
   /// chi-square, the sum of w |e|^2 over lines and curves, for poles and their residues [poles x curves]; and
   /// the curves' sums where `sums` is not null.
   double evaluate(const Eigen::VectorXcd& poles, const Eigen::MatrixXcd& residue,
-                  std::vector<CurveSums>* sums) const;
+                  std::vector<ErrorPoleSums>* sums) const;
 
  private:
   Eigen::Index curves_;
