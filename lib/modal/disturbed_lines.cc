@@ -16,6 +16,7 @@ constexpr Eigen::Index kNeighbourReach = 12;  // lines on each side among which 
 constexpr std::size_t kNear = 2, kFar = 4;    // neighbours on each side for the cubic, and for the resonance
 constexpr Eigen::Index kCluster = 3;          // outstanding lines no further apart belong together
 constexpr std::size_t kWidest = 2;            // lines of a hum whose frequency lies between two
+constexpr double kLeastNorm = 1e-300;         // of a column, in a quotient
 constexpr double kValueRounding = 1e-13;      // of a value: deviations are not smaller
 
 class DisturbedLines {
@@ -94,7 +95,7 @@ class DisturbedLines {
       values[r] = h_[i];
       design.row(r) << 1, x, x * x, -x * h_[i];
     }
-    const Eigen::Vector4d norms = design.colwise().norm().cwiseMax(1e-300);
+    const Eigen::Vector4d norms = design.colwise().norm().cwiseMax(kLeastNorm);
     const Eigen::MatrixXcd scaled = design * norms.cwiseInverse().asDiagonal();
     const Eigen::MatrixXcd inverse =
         Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXcd>(scaled).pseudoInverse();

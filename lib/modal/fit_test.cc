@@ -125,30 +125,64 @@ TEST_CASE("what lies outside the band is carried by modes marked so") {
 }
 
 TEST_CASE("a model error ends the search without spurious modes") {
-  // Hysteretic damping: no viscous mode fits it exactly.
+  struct Case {
+    double loss_factor, noise_db, largest_error;
+  };
+  // Hysteretic damping: no viscous mode fits it exactly. Without noise the residual is much larger than the
+  // noise. In the last case a noise could be as large as the residual, but it is not white.
+  for (const Case& c : {Case{0.02, 400, 0.002}, Case{0.02, 60, 0.0025}, Case{0.05, 30, 0.04}}) {
+    dynamics::FrequencyResponse measured;
+    measured.frequency_hz = Eigen::VectorXd::LinSpaced(2000, 1, 2000);
+    dynamics::FrequencyResponseEntry entry;
+    entry.response = entry.reference = "x";
+    entry.h.resize(2000);
+    for (Eigen::Index i = 0; i < 2000; ++i) {
+      const double omega = kTwoPi * measured.frequency_hz[i];
+      entry.h[i] = 0;
+      for (const double frequency : {300.0, 1200.0}) {
+        const double natural = kTwoPi * frequency;
+        entry.h[i] += 10.0 / (natural * natural * Complex(1, c.loss_factor) - omega * omega);
+      }
+    }
+    measured.entries.push_back(entry);
+    dynamics::add_noise(measured, {c.noise_db, {}, 2});
+    measured.entries[0].variance.resize(0);
+    INFO("loss factor " << c.loss_factor << ", noise " << c.noise_db << " dB below |H|");
+    const ModalFit fit = fit_modes(measured);
+    CHECK(fit.limited_by_model);
+    CHECK(fit.relative_error < c.largest_error);
+    CHECK(fit.model.modes.size() == 2);
+    REQUIRE(fit.findings.size() == 1);
+    CHECK(fit.findings[0].kind == FitFindingKind::kModelError);
+    CHECK(fit.findings[0].error == fit.relative_error);
+    CHECK_FALSE(fit.findings[0].restricted);
+  }
+}
+
+TEST_CASE("modes that crowd at a peak to imitate its shape are not kept") {
+  // Natural frequencies that wander by 0.6 % during the tap.
   dynamics::FrequencyResponse measured;
-  measured.frequency_hz = Eigen::VectorXd::LinSpaced(2000, 1, 2000);
+  measured.frequency_hz = Eigen::VectorXd::LinSpaced(4000, 0.25, 1000);
   dynamics::FrequencyResponseEntry entry;
   entry.response = entry.reference = "x";
-  entry.h.resize(2000);
-  for (Eigen::Index i = 0; i < 2000; ++i) {
-    const double omega = 6.283185307179586 * measured.frequency_hz[i];
-    entry.h[i] = 0;
-    for (const double frequency : {300.0, 1200.0}) {
-      const double natural = 6.283185307179586 * frequency;
-      entry.h[i] += 10.0 / (natural * natural * Complex(1, 0.02) - omega * omega);
+  entry.h = Eigen::VectorXcd::Zero(4000);
+  double sum = 0;
+  for (int k = -8; k <= 8; ++k) {
+    const double share = std::exp(-k * k / 18.0);
+    sum += share;
+    for (Eigen::Index i = 0; i < 4000; ++i) {
+      const double omega = kTwoPi * measured.frequency_hz[i] * (1 + 0.0008 * k);
+      for (const double frequency : {200.0, 600.0}) {
+        const double natural = kTwoPi * frequency;
+        entry.h[i] += share * 10.0 / Complex(natural * natural - omega * omega, 0.02 * natural * omega);
+      }
     }
   }
+  entry.h /= sum;
   measured.entries.push_back(entry);
-  const ModalFit fit = fit_modes(measured);
-  CHECK(fit.limited_by_model);
-  CHECK(fit.relative_error < 0.02);
-  CHECK(fit.model.modes.size() >= 2);
-  CHECK(fit.model.modes.size() <= 6);
-  REQUIRE(fit.findings.size() == 1);
-  CHECK(fit.findings[0].kind == FitFindingKind::kModelError);
-  CHECK(fit.findings[0].error == fit.relative_error);
-  CHECK_FALSE(fit.findings[0].restricted);
+  dynamics::add_noise(measured, {33.0, {}, 2});
+  measured.entries[0].variance.resize(0);
+  CHECK(fit_modes(measured).model.modes.size() == 2);
 }
 
 TEST_CASE("the number of modes can be given") {
@@ -261,7 +295,7 @@ TEST_CASE("the numbers of the table scatter by their covariance") {
   const dynamics::ModalModel truth = hard_case();
   const auto count = static_cast<Eigen::Index>(truth.modes.size());
   double square = 0, by_deviation = 0;
-  constexpr int kSeeds = 6;
+  constexpr int kSeeds = 12;
   for (int seed = 1; seed <= kSeeds; ++seed) {
     dynamics::FrequencyResponse measured = dynamics::synthesize(truth, kLines);
     dynamics::add_noise(measured, {{}, 40.0, static_cast<std::uint64_t>(seed)});
@@ -292,9 +326,9 @@ TEST_CASE("the numbers of the table scatter by their covariance") {
     for (Eigen::Index i = 2 * count; i < 10 * count; ++i)
       square += std::pow(eigen.eigenvectors().col(i).dot(off), 2) / eigen.eigenvalues()[i];
   }
-  // 288 squares of normal numbers: their mean to 8 %.
-  CHECK(square / static_cast<double>(8 * count * kSeeds) == Approx(1).margin(0.3));
-  CHECK(by_deviation == Approx(1).margin(0.4));
+  // 576 squares of normal numbers: their mean to 6 %.
+  CHECK(square / static_cast<double>(8 * count * kSeeds) == Approx(1).margin(0.25));
+  CHECK(by_deviation == Approx(1).margin(0.25));
 }
 
 TEST_CASE("a suspended structure's rigid body is one mode below the lines") {

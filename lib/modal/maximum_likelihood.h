@@ -13,8 +13,9 @@ namespace stablecut::modal {
 /// When a refinement ends.
 struct Effort {
   int iterations = 100;
-  double tolerance =
-      1e-5;  ///< change of chi_square per step, as a share of its size over the number of values
+  /// A step that changes chi_square by less ends it; by chi_square over the number of values more where it is
+  /// larger.
+  double tolerance = 1e-5;
 };
 
 struct RefinedModes {

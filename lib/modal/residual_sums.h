@@ -1,4 +1,5 @@
-// What a refinement needs of all lines: the residual of each curve, and its sums with the poles' functions.
+// What a refinement needs of all lines: chi-square, and the sums of each curve's residual with 1 / (s - pole)
+// and its square. README.md, "Sums over the lines".
 #pragma once
 
 #include <Eigen/Core>
@@ -8,8 +9,8 @@
 
 namespace stablecut::modal {
 
-/// Sums over the lines of one curve, for all poles and then for their conjugates: [2 poles]. phi is 1 / (i w
-/// - pole), w the weight and e = model - h.
+/// Sums over the lines of one curve, for all poles and then for their conjugates: [2 poles]. phi is 1 / (s -
+/// pole), w the weight and e = model - h.
 struct ErrorPoleSums {
   Eigen::VectorXcd weight;          ///< sum w phi
   Eigen::VectorXcd weight_squared;  ///< sum w phi^2
@@ -17,7 +18,8 @@ struct ErrorPoleSums {
   Eigen::VectorXcd error_squared;   ///< sum w e conj(phi^2)
 };
 
-/// The curves' lines in separate arrays, whole lanes long, walked through in blocks that stay in the cache.
+/// The curves in separate arrays for real and imaginary parts, filled up to whole lanes, summed over in
+/// blocks of lines that stay in the first cache.
 class ResidualSums {
  public:
   explicit ResidualSums(const FitData& data);

@@ -13,8 +13,6 @@ namespace stablecut::modal {
 namespace {
 
 constexpr int kLeastPairs = 3;
-constexpr int kLinesForPair =
-    3;  // more pairs than a third of the lines cannot be told apart by least squares
 constexpr int kDiagramRelocations = 10;
 constexpr double kFrequencyChange = 0.01;
 constexpr double kDampingChange = 0.1;
@@ -52,7 +50,7 @@ void compare(const std::vector<StabilizationPole>& before, std::vector<Stabiliza
 std::vector<StabilizationOrder> stabilization(const std::vector<FitData>& groups, int highest, int threads,
                                               const Progress& progress) {
   for (const FitData& data : groups)
-    highest = std::min(highest, static_cast<int>(data.lines() / kLinesForPair));
+    highest = std::min(highest, static_cast<int>(data.lines() / kLinesPerPair));
   const int count = std::max(0, highest - kLeastPairs + 1);
   const std::size_t orders = count;
   std::vector<StabilizationOrder> result(orders);

@@ -18,9 +18,7 @@ using Complex = std::complex<double>;
 // Of the first refinement, which has many candidates.
 constexpr Effort kStartEffort{24, 0.1};
 constexpr Eigen::Index kStartPairs = 30, kMostStartPairs = 120;
-// More pairs than this share of the lines cannot be told apart; from twice as many pairs where a larger share
-// of them than kCrowdedStart matters.
-constexpr Eigen::Index kLinesPerPair = 3;
+// From twice as many pairs where a larger share of them matters.
 constexpr double kCrowdedStart = 0.6;
 constexpr int kRelocations = 8;
 constexpr int kRelocationsAfterPruning = 2;

@@ -13,9 +13,10 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kGramRidge = 1e-12;    // added to each diagonal entry of a Gram matrix, as a share of it
-constexpr double kStartDamping = 0.01;  // -Re / Im of starting poles
-constexpr double kLowestStart = 1e-3;   // of the highest line, where the lowest is near 0
+constexpr double kGramRidge = 1e-12;       // added to each diagonal entry of a Gram matrix, as a share of it
+constexpr double kLeastDiagonal = 1e-300;  // of a Gram matrix, in a quotient
+constexpr double kStartDamping = 0.01;     // -Re / Im of starting poles
+constexpr double kLowestStart = 1e-3;      // of the highest line, where the lowest is near 0
 constexpr double kStartBelow = 2, kStartAbove = 1.5;  // factors to the pole below the band, and above it
 constexpr double kStartGap = 1e-3;                    // between two starting poles at least, relative
 constexpr double kFirstStart = 1e-4;                  // of the highest line, instead of 0 or less
@@ -74,7 +75,7 @@ Eigen::MatrixXcd weighted_gram(const Eigen::VectorXcd& poles, const Eigen::Vecto
 // Symmetric positive system, scaled to a unit diagonal, with a small ridge.
 struct ScaledSystem {
   explicit ScaledSystem(const Eigen::MatrixXd& matrix) {
-    scale = matrix.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    scale = matrix.diagonal().cwiseMax(kLeastDiagonal).cwiseSqrt().cwiseInverse();
     Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
     scaled.diagonal().array() += kGramRidge;
     factor.compute(scaled);

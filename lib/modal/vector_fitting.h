@@ -9,6 +9,9 @@
 
 namespace stablecut::modal {
 
+/// Lines for each pole pair at least: least squares cannot tell more pairs apart.
+inline constexpr Eigen::Index kLinesPerPair = 3;
+
 /// Poles to start from (rad/s, with positive imaginary parts): a third of `pairs` evenly over the band by
 /// logarithm, a third evenly, a third where the curves turn most, and one more on either side of the band.
 /// `pairs` at least 3.
