@@ -34,34 +34,4 @@ document::Json fit_report(const modal::ModalFit& fit, const dynamics::FrequencyR
   return report;
 }
 
-document::Json stabilization_to_json(const std::vector<modal::StabilizationOrder>& orders,
-                                     const modal::ModalFit& fit,
-                                     const dynamics::FrequencyResponse& measured) {
-  constexpr const char* kStabilities[] = {"new", "frequency", "pole"};
-  document::Json diagram = document::Json::array();
-  for (const modal::StabilizationOrder& order : orders) {
-    document::Json poles = document::Json::array();
-    for (const modal::StabilizationPole& pole : order.poles) {
-      poles.push_back({{"frequency_hz", pole.frequency_hz},
-                       {"damping_ratio", pole.damping_ratio},
-                       {"stable", kStabilities[static_cast<std::size_t>(pole.stability)]}});
-    }
-    diagram.push_back({{"pole_pairs", order.order}, {"poles", std::move(poles)}});
-  }
-  document::Json modes = document::Json::array();
-  for (const dynamics::Mode& mode : fit.model.modes) {
-    if (mode.out_of_band) continue;
-    modes.push_back({{"frequency_hz", mode.frequency_hz}, {"damping_ratio", mode.damping_ratio}});
-  }
-  const Eigen::MatrixXd indicator = modal::mode_indicator(measured);
-  document::Json values = document::Json::array();
-  for (const auto& column : indicator.colwise())
-    values.push_back(std::vector<double>(column.begin(), column.end()));
-  return {{"format", "stablecut/stabilization/1"},
-          {"frequency_hz", std::vector<double>(measured.frequency_hz.begin(), measured.frequency_hz.end())},
-          {"singular_values_m_per_n", std::move(values)},
-          {"orders", std::move(diagram)},
-          {"modes", std::move(modes)}};
-}
-
 }  // namespace stablecut

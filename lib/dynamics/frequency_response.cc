@@ -10,6 +10,14 @@
 #include "base/units.h"
 
 namespace stablecut::dynamics {
+namespace {
+
+constexpr double kSameLine = 1e-9;        // relative distance below which two frequencies are one line
+constexpr Eigen::Index kCubicLines = 4;   // measured lines that an interpolated value follows from
+constexpr double kLeastCoherence = 1e-6;  // a coherence of 0 would make the variance infinite
+constexpr double kLeastModulus = 1e-300;  // of |h|^2, in a quotient
+
+}  // namespace
 
 bool FrequencyResponseEntry::same_places(const FrequencyResponseEntry& other) const {
   return response == other.response && reference == other.reference &&
@@ -94,7 +102,7 @@ FrequencyResponse on_lines(const FrequencyResponse& frf, const Eigen::VectorXd& 
     entry.averages.reset();
   }
   for (Eigen::Index i = 0; i < lines; ++i) {
-    const double hz = frequency_hz[i], rounding = 1e-9 * hz;
+    const double hz = frequency_hz[i], rounding = kSameLine * hz;
     if (!(hz >= from[0] - rounding && hz <= from[measured - 1] + rounding)) {
       throw InvalidArgument("line at " + number_text(hz) + " Hz: expected the measured band, " +
                             number_text(from[0]) + " to " + number_text(from[measured - 1]) + " Hz");
@@ -103,7 +111,7 @@ FrequencyResponse on_lines(const FrequencyResponse& frf, const Eigen::VectorXd& 
         std::lower_bound(from.begin(), from.end(), hz - rounding) - from.begin(), measured - 1);
     const bool same = above == 0 || std::abs(from[above] - hz) <= rounding;
     // The nodes of the cubic, and the two neighbours.
-    const Eigen::Index count = std::min<Eigen::Index>(4, measured);
+    const Eigen::Index count = std::min(kCubicLines, measured);
     const Eigen::Index first = std::clamp<Eigen::Index>(above - 2, 0, measured - count);
     for (std::size_t e = 0; e < frf.entries.size(); ++e) {
       const auto& entry = frf.entries[e];
@@ -130,16 +138,16 @@ FrequencyResponse on_lines(const FrequencyResponse& frf, const Eigen::VectorXd& 
 
 namespace {
 
-// Zeros replaced by the mean share of |h|^2 of the nearest others on either side.
+// The variances with each 0 replaced by a share of |h|^2: the mean share of the nearest lines on either side
+// that have a variance.
 Eigen::VectorXd without_zeros(Eigen::VectorXd variance, const Eigen::VectorXcd& h) {
-  constexpr double kLeast = 1e-300;
   if ((variance.array() > 0).all() || (variance.array() == 0).all()) return variance;
   const Eigen::Index lines = variance.size();
   const auto filled = [&](Eigen::Index from, Eigen::Index step) {
     Eigen::VectorXd shares(lines);
     double last = -1;  // none yet
     for (Eigen::Index i = from; i >= 0 && i < lines; i += step) {
-      if (variance[i] > 0) last = variance[i] / std::max(std::norm(h[i]), kLeast);
+      if (variance[i] > 0) last = variance[i] / std::max(std::norm(h[i]), kLeastModulus);
       shares[i] = last;
     }
     return shares;
@@ -158,9 +166,9 @@ Eigen::VectorXd without_zeros(Eigen::VectorXd variance, const Eigen::VectorXcd& 
 Eigen::VectorXd known_variance(const FrequencyResponseEntry& entry) {
   if (entry.variance.size() > 0) return without_zeros(entry.variance, entry.h);
   if (entry.coherence.size() == 0 || !entry.averages) return {};
-  // Var H1 = (1 - coherence) / (2 averages coherence) |H|^2 for each part; the coherence, an estimate from
-  // the same averages, takes one of them.
-  const Eigen::ArrayXd coherence = entry.coherence.array().max(1e-6);
+  // Var H1 = (1 - coherence) / (2 averages coherence) |H|^2 for each of the two parts [Bendat2010]. The
+  // coherence was estimated from the same averages, which costs one of them.
+  const Eigen::ArrayXd coherence = entry.coherence.array().max(kLeastCoherence);
   const double averages = std::max(*entry.averages - 1, 1.0);
   return without_zeros((1 - coherence) / (coherence * averages) * entry.h.array().abs2(), entry.h);
 }

@@ -37,32 +37,32 @@ struct FrequencyResponse {
   const FrequencyResponseEntry* find(std::string_view response, std::string_view reference) const;
 };
 
-/// The same measurement as displacement over force: H / s^k, s = i omega. Where the signals were measured
-/// through an exponential window exp(-decay t), decay_per_s, their transforms are those at s = i omega +
-/// decay. Throws InvalidArgument when a line at 0 Hz would have to be divided by zero.
+/// The same measurement as displacement over force, H / s^k with k = 0, 1, 2 by quantity. s = i omega +
+/// decay_per_s, where decay_per_s is that of the exponential window exp(-decay_per_s t) that the signals were
+/// measured through [Fladung1997], 0 without one. Throws InvalidArgument for a line at 0 Hz where k > 0.
 FrequencyResponse to_receptance(FrequencyResponse frf, double decay_per_s = 0);
 
-/// These lines (indices in the order wanted), of every entry with what is known of it.
+/// The lines with these indices, in this order, of every entry: values, variances and coherences.
 FrequencyResponse select(const FrequencyResponse& frf, const std::vector<Eigen::Index>& lines);
 
 /// The lines with lo_hz <= frequency <= hi_hz. May be empty.
 FrequencyResponse within_band(const FrequencyResponse& frf, double lo_hz, double hi_hz);
 
-/// All lines but these (increasing indices).
+/// All lines except those with these (increasing) indices.
 FrequencyResponse without_lines(const FrequencyResponse& frf, const std::vector<Eigen::Index>& lines);
 
-/// The same on other lines (Hz, increasing): where a line was measured its values, between lines a cubic
-/// through the four nearest. Variances likewise but linear; coherences are left out. Throws InvalidArgument
-/// for lines outside the measured band.
+/// The same on other lines (Hz, increasing). A line that was measured keeps its values; between lines h
+/// follows the cubic through the four nearest ones, and the variance a straight line. Coherences are left
+/// out. Throws InvalidArgument for lines outside the measured band.
 FrequencyResponse on_lines(const FrequencyResponse& frf, const Eigen::VectorXd& frequency_hz);
 
-/// Equal in number and value.
+/// Whether both have the same size and the same values (Eigen asserts equal sizes).
 bool same_values(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
-/// Variance of an entry's complex values [lines], in its quantity's unit squared: given, or by its coherence
-/// and averages (Bendat and Piersol); empty when neither is known. A 0 (a coherence rounded to 1) where
-/// others have a variance is no certainty: the share of |h|^2 of the nearest lines that have one is taken
-/// instead.
+/// Variance of an entry's complex values [lines], in its quantity's unit squared: as given, or from coherence
+/// and averages [Bendat2010]; empty when neither is known. A variance of 0 on a line, where others have one,
+/// is a coherence that was rounded to 1, and not certainty: it is replaced by the share of |h|^2 that the
+/// nearest lines with a variance have.
 Eigen::VectorXd known_variance(const FrequencyResponseEntry& entry);
 
 }  // namespace stablecut::dynamics

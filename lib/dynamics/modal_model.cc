@@ -79,7 +79,8 @@ Eigen::Index reference_component(const Mode& mode) {
   return largest;
 }
 
-// psi_r takes this factor, psi_l its inverse; the shared phase is half of the product's, in (-90, 90].
+// normalised() multiplies psi_r by this factor and divides psi_l by it. At the reference component both then
+// have half the phase of their product, in (-90, 90] degrees.
 std::complex<double> normalising_factor(const Mode& mode) {
   const Eigen::Index at = reference_component(mode);
   // A symmetric mode stays exactly so.
@@ -120,7 +121,7 @@ Eigen::MatrixXd normalisation_slope(const Mode& mode) {
   const Eigen::Index at = reference_component(mode);
   const Eigen::VectorXcd right = mode.psi_r * factor, left = mode.psi_l / factor;
   for (Eigen::Index column = 2; column < size; ++column) {
-    // How the vectors change along this coordinate, and then the logarithm of the factor.
+    // Derivatives of the vectors with respect to this coordinate, then that of the factor's logarithm.
     Eigen::VectorXcd change = Eigen::VectorXcd::Zero(2 * dofs);
     change[(column - 2) / 2] = column % 2 == 0 ? Complex(1, 0) : Complex(0, 1);
     const Eigen::VectorXcd of_right = change.head(dofs), of_left = change.tail(dofs);

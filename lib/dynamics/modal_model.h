@@ -1,4 +1,4 @@
-// Non-symmetric complex modes at the tool tip (thesis 6.3, eq. 6-22).
+// Non-symmetric complex modes at the tool tip [RobotMillingThesis, eq. 6-22]: README.md, "Modal model".
 #pragma once
 
 #include <Eigen/Core>
@@ -9,14 +9,14 @@
 
 namespace stablecut::dynamics {
 
-/// One complex mode. Its part of the receptance is psi_r psi_l^T / (i w - lambda) + conjugate pole and
-/// vectors.
+/// One complex mode. It adds psi_r psi_l^T / (i omega - lambda) to the receptance, and the same with
+/// conjugate pole and vectors.
 struct Mode {
   double frequency_hz = 0;   ///< |lambda| / (2 pi)
   double damping_ratio = 0;  ///< -Re(lambda) / |lambda|, in (0, 1)
   Eigen::VectorXcd psi_r;    ///< [dofs] right vector, sqrt(s/kg)
   Eigen::VectorXcd psi_l;    ///< [dofs] left vector, sqrt(s/kg)
-  bool out_of_band = false;  ///< stands for what lies outside the measured band
+  bool out_of_band = false;  ///< carries what modes outside the measured band do inside it
 
   /// lambda with positive imaginary part, rad/s.
   std::complex<double> pole() const;
@@ -27,8 +27,9 @@ struct Mode {
 struct ModalModel {
   std::vector<std::string> dofs;  ///< direction names, the rows of psi
   std::vector<Mode> modes;
-  /// Of the table's parameters, mode by mode: frequency_hz, damping_ratio, real and imaginary part of each
-  /// component of psi_r, then of psi_l. Empty when unknown; zero for what is exact.
+  /// Covariance of all parameters [modes * parameters_per_mode() square], mode by mode in this order:
+  /// frequency_hz, damping_ratio, real and imaginary part of each component of psi_r, then of psi_l. Empty
+  /// when unknown; zero for what is exact.
   Eigen::MatrixXd covariance;
 
   /// Row of a direction, or -1.
@@ -44,18 +45,19 @@ ModalModel chosen_modes(const ModalModel& model, const std::vector<std::size_t>&
 /// Frequency (Hz) and damping ratio of a pole with positive imaginary part.
 void set_pole(Mode& mode, std::complex<double> lambda);
 
-/// The modes without the damping that an exponential window exp(-decay t), decay_per_s, gave them: poles are
-/// moved by decay, the covariance with them. Modes outside the band, which stand for other things, keep
-/// theirs where they would lose all damping. Throws NoAnswer where a mode in the band would.
+/// The modes without the damping that an exponential window exp(-decay_per_s t) added to them [Fladung1997]:
+/// every pole moves by decay_per_s to the right, and the covariance follows. Modes marked out of band keep
+/// their damping where they would lose all of it; a mode in the band that would throws NoAnswer.
 ModalModel without_window(ModalModel model, double decay_per_s);
 
-/// The same mode in the contract's scale: |psi_r| = |psi_l|, equal phases at psi_r's largest component (the
-/// first of equals), real part there not negative; psi_r = psi_l for a symmetric mode. Where psi_l is zero at
-/// that component, psi_r is made real there. A mode without residue is returned as it is.
+/// The same mode (the same residue) with its free complex scale fixed as modal tables have it: |psi_r| =
+/// |psi_l|, equal phases at psi_r's largest component (the first of equals), real part there not negative. So
+/// psi_r = psi_l for a symmetric mode. Where psi_l is zero at that component, psi_r is made real there. A
+/// mode without residue is returned as it is.
 Mode normalised(Mode mode);
 
-/// Derivatives of the parameters of `normalised(mode)`, in the order of a covariance, by Re lambda, Im
-/// lambda, and real and imaginary parts of psi_r, then of psi_l: [2 + 4 dofs square].
+/// Jacobian of the parameters of `normalised(mode)`, in the order of ModalModel::covariance, with respect to
+/// Re lambda, Im lambda, and the real and imaginary parts of `mode`'s psi_r, then psi_l: [2 + 4 dofs square].
 Eigen::MatrixXd normalisation_slope(const Mode& mode);
 
 }  // namespace stablecut::dynamics

@@ -9,16 +9,25 @@
 namespace stablecut::dynamics {
 namespace {
 
-constexpr Eigen::Index kHalfWindow = 24;
-constexpr Eigen::Index kWindowStep = 8;  // lines that share a window's median
-// The square of a complex Gaussian is exponential: its median is log 2 times its mean.
+constexpr Eigen::Index kHalfWindow = 24;  // lines on either side of a window's middle line
+constexpr Eigen::Index kWindowStep = 8;   // lines that share a window's median
+constexpr Eigen::Index kLeastNoiseLines = 6;
+// The squared modulus of a complex Gaussian is exponentially distributed: its median is log 2 times its mean
+// [Hampel1974].
 const double kMedianOfExponential = std::log(2.0);
+constexpr int kScoringSteps = 30;
+constexpr double kScoringTolerance = 1e-4;  // relative change of both parts that ends the scoring
+constexpr double kLeastPart = 1e-6;         // of the part before: a step never makes one negative
+constexpr double kLeastVariance = 1e-300;   // stands in for 0 where a logarithm or quotient is taken
+constexpr double kLeastCorrelation = 0.1;   // below it a correlation counts as none, and the sum ends
+constexpr Eigen::Index kLagFraction = 4;    // lags up to this fraction of the lines
 
-// Median of `square` over a window around each line, as the mean that it stands for. Square i belongs to line
-// i + 2.
+// The median of `square` over a window around each line, divided by log 2, which makes it an estimate of the
+// mean. Square i belongs to line i + 2. The window is shorter where there are fewer squares, and stays
+// inside.
 Eigen::VectorXd windowed_mean(const Eigen::VectorXd& square) {
   const Eigen::Index lines = square.size() + 4;
-  const Eigen::Index half = std::min(kHalfWindow, square.size() / 2);
+  const Eigen::Index half = std::min(kHalfWindow, (square.size() - 1) / 2);
   Eigen::VectorXd mean(lines);
   std::vector<double> window;
   for (Eigen::Index i = 0; i < lines; ++i) {
@@ -36,12 +45,12 @@ Eigen::VectorXd windowed_mean(const Eigen::VectorXd& square) {
   return mean;
 }
 
-// Weights of the fourth divided differences on the lines, the sum of their squares 1: of equal lines 1, -4,
-// 6, -4, 1 over the root of 70. [lines - 4 x 5]
+// Weights of the fourth divided differences over five neighbouring lines, scaled to a sum of squares of 1:
+// for equally spaced lines (1, -4, 6, -4, 1) / sqrt(70). [lines - 4 x 5]
 Eigen::Array<double, Eigen::Dynamic, 5> fourth_differences(const Eigen::VectorXd& lines) {
   const Eigen::Index count = lines.size() - 4;
   const auto line = [&](Eigen::Index i) { return lines.segment(i, count).array(); };
-  // In units of the whole stretch, so that nothing over- or underflows.
+  // In units of the distance from the first to the fifth line, so that nothing over- or underflows.
   const Eigen::ArrayXd stretch = line(4) - line(0);
   Eigen::Array<double, Eigen::Dynamic, 5> weights = Eigen::Array<double, Eigen::Dynamic, 5>::Ones(count, 5);
   for (Eigen::Index a = 0; a < 5; ++a) {
@@ -52,42 +61,42 @@ Eigen::Array<double, Eigen::Dynamic, 5> fourth_differences(const Eigen::VectorXd
   return weights.colwise() / norm;
 }
 
-// Log-likelihood of squared complex Gaussians.
-double likelihood(const Eigen::VectorXd& square, const Eigen::VectorXd& variance) {
-  const auto positive = variance.array().max(1e-300);
+// Log-likelihood, up to a constant, of complex Gaussians with these squared moduli and variances.
+double log_likelihood(const Eigen::VectorXd& square, const Eigen::VectorXd& variance) {
+  const auto positive = variance.array().max(kLeastVariance);
   return -(positive.log() + square.array() / positive).sum();
 }
 
-// The likeliest part of one of two shapes (squared, [lines]), or sum of parts of both where that is worth a
-// number more; by Fisher scoring.
+// The likeliest variance among a multiple of the first shape, a multiple of the second, and a sum of both,
+// which Fisher scoring [Fisher1925] finds. Shapes are squared deviations, [lines].
 Eigen::VectorXd likeliest_sum(const Eigen::VectorXd& square, const Eigen::VectorXd& first_shape,
                               const Eigen::VectorXd& second_shape) {
-  constexpr int kSteps = 30;
   const auto scaled = [](const Eigen::VectorXd& shape) -> Eigen::ArrayXd {
-    return shape.array().max(1e-300) / std::max(shape.mean(), 1e-300);
+    return shape.array().max(kLeastVariance) / std::max(shape.mean(), kLeastVariance);
   };
   const Eigen::ArrayXd a = scaled(first_shape), b = scaled(second_shape);
   const double of_a = (square.array() / a).mean(), of_b = (square.array() / b).mean();
   Eigen::Vector2d part(of_a / 2, of_b / 2);
-  for (int step = 0; step < kSteps; ++step) {
-    const Eigen::ArrayXd weight = (part[0] * a + part[1] * b).square().max(1e-300).inverse();
+  for (int step = 0; step < kScoringSteps; ++step) {
+    const Eigen::ArrayXd weight = (part[0] * a + part[1] * b).square().max(kLeastVariance).inverse();
     const Eigen::ArrayXd weighted_a = weight * a, weighted_b = weight * b;
     Eigen::Matrix2d normal;
     normal << (weighted_a * a).sum(), (weighted_a * b).sum(), (weighted_a * b).sum(), (weighted_b * b).sum();
     const Eigen::Vector2d right((weighted_a * square.array()).sum(), (weighted_b * square.array()).sum());
     const Eigen::Vector2d next = normal.inverse() * right;
     if (!next.allFinite()) break;
-    const Eigen::Vector2d last = std::exchange(part, next.cwiseMax(1e-6 * part));
-    if (((part - last).array().abs() <= 1e-4 * last.array().abs()).all()) break;
+    const Eigen::Vector2d last = std::exchange(part, next.cwiseMax(kLeastPart * part));
+    if (((part - last).array().abs() <= kScoringTolerance * last.array().abs()).all()) break;
   }
   Eigen::VectorXd best = of_a * a;
   for (const Eigen::VectorXd& other :
        {Eigen::VectorXd(of_b * b), Eigen::VectorXd(part[0] * a + part[1] * b)}) {
-    if (likelihood(square, other) > likelihood(square, best)) best = other;
+    if (log_likelihood(square, other) > log_likelihood(square, best)) best = other;
   }
   return best;
 }
 
+// Mean over a window around each line, which stays inside the curve.
 Eigen::VectorXd running_mean(const Eigen::VectorXd& square) {
   const Eigen::Index half = std::min(kHalfWindow, (square.size() - 1) / 2);
   Eigen::VectorXd mean(square.size());
@@ -106,7 +115,7 @@ NoiseShapes floor_shapes(const Eigen::VectorXd& omega) {
 
 Eigen::VectorXd estimated_variance(const Eigen::VectorXd& lines, const Eigen::VectorXcd& values,
                                    const Eigen::VectorXd& size, const NoiseShapes& floors) {
-  if (values.size() < 6) return Eigen::VectorXd::Zero(values.size());
+  if (values.size() < kLeastNoiseLines) return Eigen::VectorXd::Zero(values.size());
   const Eigen::Index count = values.size() - 4;
   const Eigen::Array<double, Eigen::Dynamic, 5> weights = fourth_differences(lines);
   const Eigen::Array<double, Eigen::Dynamic, 5> shares = weights.square();
@@ -117,11 +126,11 @@ Eigen::VectorXd estimated_variance(const Eigen::VectorXd& lines, const Eigen::Ve
   Eigen::VectorXd best;
   double most = 0;
   const auto try_shape = [&](const Eigen::VectorXd& shape) {
-    const Eigen::VectorXd v = shape.cwiseAbs2().array().max(1e-300);
+    const Eigen::VectorXd v = shape.cwiseAbs2().array().max(kLeastVariance);
     Eigen::VectorXd expected = Eigen::VectorXd::Zero(count);
     for (Eigen::Index a = 0; a < 5; ++a) expected.array() += shares.col(a) * v.segment(a, count).array();
     const Eigen::VectorXd level = windowed_mean(square.cwiseQuotient(expected));
-    const double likely = likelihood(square, level.segment(2, count).cwiseProduct(expected));
+    const double likely = log_likelihood(square, level.segment(2, count).cwiseProduct(expected));
     if (best.size() > 0 && !(likely > most)) return;
     most = likely;
     best = level.cwiseProduct(v);
@@ -138,14 +147,14 @@ ResidualNoise residual_noise(const Eigen::VectorXcd& residual, const Eigen::Vect
   noise.local = running_mean(square);
   for (const Eigen::VectorXd& floor : floors) {
     const Eigen::VectorXd smooth = likeliest_sum(square, floor.cwiseAbs2(), size.cwiseAbs2());
-    if (noise.smooth.size() == 0 || likelihood(square, smooth) > likelihood(square, noise.smooth))
+    if (noise.smooth.size() == 0 || log_likelihood(square, smooth) > log_likelihood(square, noise.smooth))
       noise.smooth = smooth;
   }
-  // Schwarz: each window is a parameter more.
+  // [Schwarz1978]: each window of the running mean counts as a parameter.
   const auto lines = static_cast<double>(square.size());
   const double windows = lines / static_cast<double>(2 * kHalfWindow + 1);
-  noise.is_local =
-      likelihood(square, noise.local) - likelihood(square, noise.smooth) > windows * std::log(lines) / 2;
+  noise.is_local = log_likelihood(square, noise.local) - log_likelihood(square, noise.smooth) >
+                   windows * std::log(lines) / 2;
   return noise;
 }
 
@@ -153,11 +162,11 @@ double correlation_length(const Eigen::VectorXcd& residual) {
   const double power = residual.squaredNorm();
   if (power == 0) return 1;
   double length = 1;
-  const Eigen::Index most = residual.size() / 4;
+  const Eigen::Index most = residual.size() / kLagFraction;
   for (Eigen::Index lag = 1; lag < most; ++lag) {
     const double correlation =
         residual.head(residual.size() - lag).dot(residual.tail(residual.size() - lag)).real() / power;
-    if (correlation < 0.1) break;
+    if (correlation < kLeastCorrelation) break;
     length += 2 * correlation;
   }
   return length;

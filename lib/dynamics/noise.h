@@ -1,4 +1,5 @@
-// Noise of a measured curve, from itself: what no smooth curve follows.
+// How large the noise of a measured curve is, estimated from the curve itself or from what a model leaves of
+// it. The estimators and their error: README.md, "Noise".
 #pragma once
 
 #include <Eigen/Core>
@@ -6,32 +7,34 @@
 
 namespace stablecut::dynamics {
 
-/// How the noise of a curve may depend on the line: standard deviations up to a factor, each [lines].
+/// Ways in which the noise may depend on the line: standard deviations up to a common factor, each [lines].
 using NoiseShapes = std::vector<Eigen::VectorXd>;
 
-/// The same on every line in some quantity: as displacement, velocity or acceleration it was measured, so
-/// that as a receptance it falls like 1, 1 / omega or 1 / omega^2. `omega` [lines], above 0.
+/// Noise that is the same on every line as displacement, as velocity or as acceleration: as a receptance it
+/// falls like 1, 1 / omega or 1 / omega^2. `omega` [lines], above 0, in any unit.
 NoiseShapes floor_shapes(const Eigen::VectorXd& omega);
 
-/// Estimated variance of the complex values on each line: fourth differences (blind to a cubic, whatever the
-/// spacing of the lines, which stand at `lines`: increasing, in any unit) squared,
-/// their median over a window of lines, so that a narrow peak does not count as noise. The noise may follow
-/// a shape more closely than a window can: medians are taken of the noise over each of the floor shapes and
-/// over the signal's `size` (its modulus on each line), and the likeliest is kept. [lines]; zero for a curve
-/// without noise.
+/// Estimated variance E|error|^2 of the complex values on each line [lines], in the values' unit squared,
+/// from fourth differences of the curve [Gasser1986], which a cubic does not reach. `lines` says where the
+/// values stand (increasing, any unit, any spacing); `size` [lines] is the modulus of the signal, to which
+/// noise may be proportional; `floors` are the other shapes that are tried. Zero for a curve without noise,
+/// and for fewer than six lines.
 Eigen::VectorXd estimated_variance(const Eigen::VectorXd& lines, const Eigen::VectorXcd& values,
                                    const Eigen::VectorXd& size, const NoiseShapes& floors);
 
-/// Variance on each line of a white residual, from all of it.
+/// Two estimates of the variance on each line of a residual that is white noise.
 struct ResidualNoise {
-  Eigen::VectorXd smooth;  ///< [lines] the likeliest of the floors plus a share of the size squared
+  Eigen::VectorXd smooth;  ///< [lines] a floor of the likeliest shape plus a share of the size squared
   Eigen::VectorXd local;   ///< [lines] running mean
-  bool is_local = false;   ///< the running mean is clearly likelier, for all its parameters
+  bool is_local = false;   ///< Schwarz' criterion prefers the running mean, for all its parameters
 };
+/// `residual`, `size` and each of `floors` [lines], as for estimated_variance.
 ResidualNoise residual_noise(const Eigen::VectorXcd& residual, const Eigen::VectorXd& size,
                              const NoiseShapes& floors);
 
-/// Correlation length of residuals in lines: 1 for white noise, more for a misfit that is smooth over lines.
+/// Correlation length of a residual in lines [Bayley1946]: how many neighbouring values tell as much as one
+/// independent value. 1 for white noise and for a residual of zeros, more for a misfit that is smooth over
+/// lines.
 double correlation_length(const Eigen::VectorXcd& residual);
 
 }  // namespace stablecut::dynamics

@@ -1,7 +1,10 @@
 #include "dynamics/noise.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <random>
+#include <vector>
 
 #include "numerics/random.h"
 
@@ -55,11 +58,43 @@ TEST_CASE("the spacing of the lines does not count as noise") {
   CHECK((variance.array() / 1e-12).maxCoeff() < 3);
 }
 
+TEST_CASE("curves shorter than a window have windows of their own size, inside the curve") {
+  // An odd number of squares has one window of all; an even number has two, which leave out the last or the
+  // first.
+  for (Eigen::Index lines = 6; lines <= 60; ++lines) {
+    const Eigen::VectorXcd values = white(lines, 1);
+    std::vector<double> squares;
+    for (Eigen::Index i = 0; i + 4 < lines; ++i)
+      squares.push_back(std::norm(values[i] - 4.0 * values[i + 1] + 6.0 * values[i + 2] -
+                                  4.0 * values[i + 3] + values[i + 4]) /
+                        70);
+    const std::size_t length = std::min<std::size_t>(49, (squares.size() - 1) / 2 * 2 + 1);
+    // Of the window whose first square is that one.
+    const auto level = [&](std::size_t first) {
+      std::vector<double> window(squares.begin() + static_cast<std::ptrdiff_t>(first),
+                                 squares.begin() + static_cast<std::ptrdiff_t>(first + length));
+      std::sort(window.begin(), window.end());
+      return window[length / 2] / std::log(2.0);
+    };
+    const Eigen::VectorXd ones = Eigen::VectorXd::Ones(lines);
+    const Eigen::VectorXd variance = estimated_variance(lines_of(lines), values, ones, {ones});
+    INFO(lines << " lines");
+    for (const double value : variance) {
+      bool inside = false;
+      for (std::size_t first = 0; first + length <= squares.size(); ++first)
+        inside = inside || value == Approx(level(first)).epsilon(1e-10);
+      CHECK(inside);
+    }
+  }
+  CHECK(estimated_variance(lines_of(5), white(5, 1), Eigen::VectorXd::Ones(5), floors_of(5)).isZero(0));
+}
+
 TEST_CASE("white residuals have correlation length 1, smooth ones more") {
   CHECK(correlation_length(white(4000, 1)) == Approx(1).margin(0.25));
   Eigen::VectorXcd smooth(4000);
   for (Eigen::Index i = 0; i < 4000; ++i) smooth[i] = std::sin(0.02 * static_cast<double>(i));
   CHECK(correlation_length(smooth) > 20);
+  CHECK(correlation_length(Eigen::VectorXcd::Zero(100)) == 1);
 }
 
 TEST_CASE("noise that follows a sharp peak is told from a floor") {

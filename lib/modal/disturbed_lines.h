@@ -6,10 +6,11 @@
 
 namespace stablecut::modal {
 
-/// Lines on which the value stands out of its neighbours by more than ten deviations of the noise (`variance`
-/// [lines], of the complex value): out of a cubic through four of them, and out of a resonance that eight of
-/// them could show, to within what that leaves of the eight. Found one after the other, that which stands out
-/// most first; more than two side by side are none. Indices, increasing.
+/// Lines (indices, increasing) whose value stands out of its neighbours by more than ten standard deviations:
+/// of the cubic through four of them, and of a resonance that eight of them could show. `hz`, the values `h`
+/// and the variance of their noise (of the complex value), each [lines]. Lines are taken out one after the
+/// other, the one that stands out most first; more than two side by side are no hum and not returned.
+/// README.md, "Disturbed lines".
 std::vector<Eigen::Index> disturbed_lines(const Eigen::VectorXd& hz, const Eigen::VectorXcd& h,
                                           const Eigen::VectorXd& variance);
 

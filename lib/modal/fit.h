@@ -1,9 +1,5 @@
-// From measured receptances to a table of modes, without any guess by the user.
-//
-// Vector fitting from start poles spread over the band finds candidate poles; statistics decide which of them
-// are modes (a mode stays when taking it away costs more likelihood than its parameters are worth, a mode is
-// added where the residual asks for one); all are refined together by maximum likelihood with rank-1
-// residues.
+// From measured receptances to a table of modes, without any guess by the user: README.md, "From curves to a
+// table".
 #pragma once
 
 #include <optional>
@@ -13,8 +9,9 @@
 #include "base/progress.h"
 #include "dynamics/frequency_response.h"
 #include "dynamics/modal_model.h"
+#include "modal/entry_name.h"
 #include "modal/fit_data.h"
-#include "modal/mode_parameters.h"
+#include "modal/model_choice.h"
 
 namespace stablecut::modal {
 
@@ -23,16 +20,6 @@ struct FitOptions {
   /// Empty: the one of the three with the least information criterion.
   std::optional<ModeModel> model = ModeModel::kNonsymmetric;
   Progress progress;
-};
-
-/// One model's share in the choice: Schwarz' criterion chi_square / inflation + parameters log(values),
-/// smaller is better.
-struct ModelCriterion {
-  ModeModel model = ModeModel::kNonsymmetric;
-  std::size_t modes = 0;
-  double parameters = 0;
-  double chi_square = 0;  ///< sum over real and imaginary parts of squares over their variance
-  double bic = 0;
 };
 
 /// How far the measurement is from reciprocal: sums over all pairs of directions measured both ways.
@@ -48,6 +35,28 @@ struct CurveFit {
   double reduced_chi_square = 0;  ///< mean |model - h|^2 / variance, 1 when noise is all that is left
 };
 
+/// Which fields of a FitFinding a kind sets stands behind it.
+enum class FitFindingKind {
+  kVarianceTooSmall,    ///< the residual of a group is much larger than the given variance: it was estimated
+                        ///< instead
+  kFewerModes,          ///< only `modes` could be told apart, fewer than wanted
+  kSelectionUnsettled,  ///< the selection was ended after its last round, with `modes` in all
+  kByReciprocity,       ///< entries `missing`: what they would tell follows by reciprocity, or is zero
+  kTakenAsUncoupled,    ///< entries `missing` alone could connect some directions
+  /// The residual is larger than the noise or not white, and leaves the share `error` of the curves: of modes
+  /// as a restricted model has them (`restricted`), or of the strongest modes.
+  kModelError
+};
+
+/// What a user should know about a fit.
+struct FitFinding {
+  FitFindingKind kind;
+  std::size_t modes = 0;
+  std::vector<EntryName> missing{};
+  double error = 0;
+  bool restricted = false;
+};
+
 struct ModalFit {
   dynamics::ModalModel model;  ///< modes by frequency; out of band marked; with its covariance
   ModeModel mode_model = ModeModel::kNonsymmetric;
@@ -58,20 +67,23 @@ struct ModalFit {
   std::optional<Reciprocity> reciprocity;
   std::vector<FitData> data;  ///< the curves of each independent group, as they were weighted
   std::vector<CurveFit> curves;
-  double relative_error = 0;      ///< over all curves together
-  double reduced_chi_square = 0;  ///< mean over the values less the parameters
-  bool variance_given = false;    ///< the noise came with the measurement; otherwise it was estimated from it
+  double relative_error = 0;  ///< over all curves together
+  double reduced_chi_square =
+      0;                        ///< chi-square over the degrees of freedom: 1 when noise is all that is left
+  bool variance_given = false;  ///< the noise came with the measurement; otherwise it was estimated from it
   /// The residual is larger than the noise: selection stopped at the model error, not at the noise.
   bool limited_by_model = false;
-  bool converged = false;
-  std::vector<std::string> warnings;
+  bool converged = false;       ///< the last refinement of every group
+  bool by_reciprocity = false;  ///< some vector components are shown by no entry
+  std::vector<FitFinding> findings;
 };
 
-/// A vector component that no entry shows (no force in that direction, or no response) is set by reciprocity,
-/// with a warning. Directions that only missing entries could connect are taken as uncoupled, with a warning.
+/// Fits modes to a receptance (m/N) with at least 8 lines above 0 Hz. A vector component that no entry shows
+/// (no force in that direction, or no response) is set by reciprocity; directions that only missing entries
+/// could connect are taken as uncoupled; both are findings.
 ///
-/// `measured` must be a receptance with at least 8 lines above 0 Hz. Throws InvalidArgument for data that
-/// cannot be fitted, NoAnswer when no mode stands out, or the modes leave half of the curves unexplained.
+/// Throws InvalidArgument for data that cannot be fitted, NoAnswer when no mode stands out of the noise, or
+/// the modes leave half of the curves unexplained.
 ModalFit fit_modes(const dynamics::FrequencyResponse& measured, const FitOptions& options = {});
 
 }  // namespace stablecut::modal

@@ -6,17 +6,17 @@
 namespace stablecut::modal {
 
 std::vector<std::size_t> FitData::vector_parts() const {
-  constexpr std::size_t kNone = -1;
-  std::vector<std::size_t> part(curves.size(), kNone);
+  constexpr std::size_t kNoPart = -1;
+  std::vector<std::size_t> part(curves.size(), kNoPart);
   std::size_t parts = 0;
   for (std::size_t first = 0; first < curves.size(); ++first) {
-    if (part[first] != kNone) continue;
+    if (part[first] != kNoPart) continue;
     part[first] = parts;
     for (bool grew = true; grew;) {
       grew = false;
       for (std::size_t a = 0; a < curves.size(); ++a) {
         for (std::size_t b = 0; b < curves.size(); ++b) {
-          if (part[a] != parts || part[b] != kNone) continue;
+          if (part[a] != parts || part[b] != kNoPart) continue;
           if (curves[a].response != curves[b].response && curves[a].reference != curves[b].reference)
             continue;
           part[b] = parts;
@@ -29,12 +29,16 @@ std::vector<std::size_t> FitData::vector_parts() const {
   return part;
 }
 
+bool FitData::in_band(std::complex<double> pole) const {
+  return pole.imag() >= lowest() && pole.imag() <= highest();
+}
+
 std::vector<DirectionGroup> independent_groups(const dynamics::FrequencyResponse& frf) {
   const std::vector<std::string> names = direction_names(frf);
   const auto index = [&](const std::string& name) {
     return std::find(names.begin(), names.end(), name) - names.begin();
   };
-  // Union of direction labels over the entries that are not zero.
+  // Directions that an entry connects get one label.
   std::vector<std::size_t> label(names.size());
   std::iota(label.begin(), label.end(), std::size_t{0});
   for (const auto& entry : frf.entries) {
@@ -55,7 +59,7 @@ std::vector<DirectionGroup> independent_groups(const dynamics::FrequencyResponse
       groups[found - group_label.begin()].entries.push_back(e);
     }
   }
-  // Zeros between directions of one group are data.
+  // An entry of zeros between directions of one group is data like any other.
   for (std::size_t e = 0; e < frf.entries.size(); ++e) {
     const std::size_t from = label[index(frf.entries[e].response)],
                       to = label[index(frf.entries[e].reference)];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <complex>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,10 @@ struct Curve {
   Eigen::VectorXd weight;      ///< [lines] 1 / variance of the complex value
 };
 
+/// The curves of one independent group of directions.
 struct FitData {
-  Eigen::VectorXcd s;  ///< [lines] i omega, rad/s
-  Eigen::Index dofs = 0;
+  Eigen::VectorXcd s;     ///< [lines] i omega, rad/s
+  Eigen::Index dofs = 0;  ///< number of directions: the size of psi_r and psi_l
   std::vector<Curve> curves;
 
   /// Which curves share components of psi_r or psi_l, directly or by others: a number from 0 on for each
@@ -27,16 +29,22 @@ struct FitData {
   std::vector<std::size_t> vector_parts() const;
 
   Eigen::Index lines() const { return s.size(); }
+  double lowest() const { return s[0].imag(); }             ///< rad/s
+  double highest() const { return s[lines() - 1].imag(); }  ///< rad/s
+  /// Whether a pole lies in the band of the lines. The one definition of it: README.md, "In the band".
+  bool in_band(std::complex<double> pole) const;
   /// Mean distance between lines, rad/s.
   double line_spacing() const { return (s[lines() - 1] - s[0]).imag() / static_cast<double>(lines() - 1); }
   /// Number of real values measured.
   double values() const { return 2.0 * static_cast<double>(lines()) * static_cast<double>(curves.size()); }
 };
 
-/// Directions that only exact zeros (or nothing) connect are independent structures: each group is fitted
+/// Directions that some entry other than an exact zero connects, directly or by others. Between two groups
+/// there is nothing but zeros (or nothing was measured): they are independent structures, and each is fitted
 /// alone.
 struct DirectionGroup {
-  std::vector<std::size_t> entries;  ///< of the frequency response: all between directions of the group
+  std::vector<std::size_t>
+      entries;  ///< indices in the frequency response: all between directions of the group
 };
 
 /// The groups in the order of their first entry.

@@ -1,5 +1,6 @@
 #include "modal/fit.h"
 
+#include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -42,7 +43,8 @@ dynamics::ModalModel hard_case() {
 TEST_CASE("the modes are found without a hint, with and without a known variance") {
   const dynamics::ModalModel truth = hard_case();
   for (const bool variance_known : {true, false}) {
-    for (const std::uint64_t seed : {1, 2, 3}) {
+    double square = 0, count = 0;
+    for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
       dynamics::FrequencyResponse measured = dynamics::synthesize(truth, kLines);
       dynamics::add_noise(measured, {{}, 40.0, seed});
       if (!variance_known) {
@@ -52,16 +54,25 @@ TEST_CASE("the modes are found without a hint, with and without a known variance
       INFO("seed " << seed << (variance_known ? ", variance known" : ""));
       CHECK(fit.variance_given == variance_known);
       CHECK(fit.converged);
-      CHECK(fit.reduced_chi_square == Approx(1).margin(variance_known ? 0.05 : 0.2));
+      CHECK(fit.findings.empty());
+      // 8192 complex values: 1.1 %.
+      CHECK(fit.reduced_chi_square == Approx(1).margin(0.05));
       REQUIRE(fit.model.modes.size() == truth.modes.size());
       for (std::size_t k = 0; k < truth.modes.size(); ++k) {
         const dynamics::Mode& mode = fit.model.modes[k];
         const Eigen::VectorXd deviation = fit.model.deviation(k);
-        // 12 values in 6 runs: four standard deviations are passed once in 200.
-        CHECK(std::abs(mode.frequency_hz - truth.modes[k].frequency_hz) < 4.5 * deviation[0]);
-        CHECK(std::abs(mode.damping_ratio - truth.modes[k].damping_ratio) < 4.5 * deviation[1]);
+        for (const double off : {(mode.frequency_hz - truth.modes[k].frequency_hz) / deviation[0],
+                                 (mode.damping_ratio - truth.modes[k].damping_ratio) / deviation[1]}) {
+          // Of 144 values one is beyond 4 in a hundred runs of this test.
+          CHECK(std::abs(off) < 4);
+          square += off * off;
+          ++count;
+        }
       }
     }
+    // 72 squares of normal numbers: their mean to 17 %. Deviations a third too small or too large fail.
+    INFO("variance known: " << variance_known);
+    CHECK(square / count == Approx(1).margin(0.45));
   }
 }
 
@@ -114,25 +125,64 @@ TEST_CASE("what lies outside the band is carried by modes marked so") {
 }
 
 TEST_CASE("a model error ends the search without spurious modes") {
-  // Hysteretic damping: no viscous mode fits it exactly.
+  struct Case {
+    double loss_factor, noise_db, largest_error;
+  };
+  // Hysteretic damping: no viscous mode fits it exactly. Without noise the residual is much larger than the
+  // noise. In the last case a noise could be as large as the residual, but it is not white.
+  for (const Case& c : {Case{0.02, 400, 0.002}, Case{0.02, 60, 0.0025}, Case{0.05, 30, 0.04}}) {
+    dynamics::FrequencyResponse measured;
+    measured.frequency_hz = Eigen::VectorXd::LinSpaced(2000, 1, 2000);
+    dynamics::FrequencyResponseEntry entry;
+    entry.response = entry.reference = "x";
+    entry.h.resize(2000);
+    for (Eigen::Index i = 0; i < 2000; ++i) {
+      const double omega = kTwoPi * measured.frequency_hz[i];
+      entry.h[i] = 0;
+      for (const double frequency : {300.0, 1200.0}) {
+        const double natural = kTwoPi * frequency;
+        entry.h[i] += 10.0 / (natural * natural * Complex(1, c.loss_factor) - omega * omega);
+      }
+    }
+    measured.entries.push_back(entry);
+    dynamics::add_noise(measured, {c.noise_db, {}, 2});
+    measured.entries[0].variance.resize(0);
+    INFO("loss factor " << c.loss_factor << ", noise " << c.noise_db << " dB below |H|");
+    const ModalFit fit = fit_modes(measured);
+    CHECK(fit.limited_by_model);
+    CHECK(fit.relative_error < c.largest_error);
+    CHECK(fit.model.modes.size() == 2);
+    REQUIRE(fit.findings.size() == 1);
+    CHECK(fit.findings[0].kind == FitFindingKind::kModelError);
+    CHECK(fit.findings[0].error == fit.relative_error);
+    CHECK_FALSE(fit.findings[0].restricted);
+  }
+}
+
+TEST_CASE("modes that crowd at a peak to imitate its shape are not kept") {
+  // Natural frequencies that wander by 0.6 % during the tap.
   dynamics::FrequencyResponse measured;
-  measured.frequency_hz = Eigen::VectorXd::LinSpaced(2000, 1, 2000);
+  measured.frequency_hz = Eigen::VectorXd::LinSpaced(4000, 0.25, 1000);
   dynamics::FrequencyResponseEntry entry;
   entry.response = entry.reference = "x";
-  entry.h.resize(2000);
-  for (Eigen::Index i = 0; i < 2000; ++i) {
-    const double omega = 6.283185307179586 * measured.frequency_hz[i];
-    entry.h[i] = 0;
-    for (const double frequency : {300.0, 1200.0}) {
-      const double natural = 6.283185307179586 * frequency;
-      entry.h[i] += 10.0 / (natural * natural * Complex(1, 0.02) - omega * omega);
+  entry.h = Eigen::VectorXcd::Zero(4000);
+  double sum = 0;
+  for (int k = -8; k <= 8; ++k) {
+    const double share = std::exp(-k * k / 18.0);
+    sum += share;
+    for (Eigen::Index i = 0; i < 4000; ++i) {
+      const double omega = kTwoPi * measured.frequency_hz[i] * (1 + 0.0008 * k);
+      for (const double frequency : {200.0, 600.0}) {
+        const double natural = kTwoPi * frequency;
+        entry.h[i] += share * 10.0 / Complex(natural * natural - omega * omega, 0.02 * natural * omega);
+      }
     }
   }
+  entry.h /= sum;
   measured.entries.push_back(entry);
-  const ModalFit fit = fit_modes(measured);
-  CHECK(fit.limited_by_model);
-  CHECK(fit.relative_error < 0.02);
-  CHECK(fit.model.modes.size() <= 6);
+  dynamics::add_noise(measured, {33.0, {}, 2});
+  measured.entries[0].variance.resize(0);
+  CHECK(fit_modes(measured).model.modes.size() == 2);
 }
 
 TEST_CASE("the number of modes can be given") {
@@ -156,8 +206,9 @@ TEST_CASE("what was not measured is filled in by reciprocity, and said") {
   dynamics::FrequencyResponse measured = dynamics::synthesize(truth, kLines);
   std::erase_if(measured.entries, [](const auto& entry) { return entry.reference == "y"; });
   const ModalFit fit = fit_modes(measured);
-  REQUIRE(fit.warnings.size() == 1);
-  CHECK(fit.warnings[0].find("xy, yy") != std::string::npos);
+  REQUIRE(fit.findings.size() == 1);
+  CHECK(fit.findings[0].kind == FitFindingKind::kByReciprocity);
+  CHECK(fit.findings[0].missing == std::vector<EntryName>{{"x", "y"}, {"y", "y"}});
   REQUIRE(fit.model.modes.size() == truth.modes.size());
   for (std::size_t k = 0; k < truth.modes.size(); ++k) {
     const dynamics::Mode expected = dynamics::normalised(truth.modes[k]);
@@ -169,8 +220,9 @@ TEST_CASE("two driving points alone are two uncoupled structures, and that is sa
   dynamics::FrequencyResponse measured = dynamics::synthesize(fixtures::close_pair(), kLines);
   std::erase_if(measured.entries, [](const auto& entry) { return entry.response != entry.reference; });
   const ModalFit fit = fit_modes(measured);
-  REQUIRE(fit.warnings.size() == 1);
-  CHECK(fit.warnings[0].find("uncoupled") != std::string::npos);
+  REQUIRE(fit.findings.size() == 1);
+  CHECK(fit.findings[0].kind == FitFindingKind::kTakenAsUncoupled);
+  CHECK(fit.findings[0].missing == std::vector<EntryName>{{"x", "y"}, {"y", "x"}});
   CHECK(rebuild_error(fit, measured) < 1e-6);
 }
 
@@ -183,7 +235,8 @@ TEST_CASE("a variance that is much too small is not believed") {
   CHECK(fit.model.modes.size() == truth.modes.size());
   CHECK_FALSE(fit.variance_given);
   CHECK_FALSE(fit.limited_by_model);
-  CHECK(fit.warnings.size() == 1);
+  REQUIRE(fit.findings.size() == 1);
+  CHECK(fit.findings[0].kind == FitFindingKind::kVarianceTooSmall);
 }
 
 TEST_CASE("equal numbers in x and y are fitted once, to the same as each alone") {
@@ -238,26 +291,44 @@ TEST_CASE("the best model is the one behind the data") {
   }
 }
 
-TEST_CASE("every number of the table lies within its deviations") {
+TEST_CASE("the numbers of the table scatter by their covariance") {
   const dynamics::ModalModel truth = hard_case();
-  dynamics::FrequencyResponse measured = dynamics::synthesize(truth, kLines);
-  dynamics::add_noise(measured, {{}, 40.0, 6});
-  const ModalFit fit = fit_modes(measured);
-  REQUIRE(fit.model.modes.size() == truth.modes.size());
-  double square = 0;
-  for (std::size_t k = 0; k < truth.modes.size(); ++k) {
-    const dynamics::Mode expected = dynamics::normalised(truth.modes[k]);
-    const Eigen::VectorXd deviation = fit.model.deviation(k);
-    for (Eigen::Index i = 0; i < 2; ++i) {
-      const Complex right = fit.model.modes[k].psi_r[i] - expected.psi_r[i],
-                    left = fit.model.modes[k].psi_l[i] - expected.psi_l[i];
-      square += std::pow(right.real() / deviation[2 + 2 * i], 2) +
-                std::pow(right.imag() / deviation[3 + 2 * i], 2) +
-                std::pow(left.real() / deviation[6 + 2 * i], 2) +
-                std::pow(left.imag() / deviation[7 + 2 * i], 2);
+  const auto count = static_cast<Eigen::Index>(truth.modes.size());
+  double square = 0, by_deviation = 0;
+  constexpr int kSeeds = 12;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    dynamics::FrequencyResponse measured = dynamics::synthesize(truth, kLines);
+    dynamics::add_noise(measured, {{}, 40.0, static_cast<std::uint64_t>(seed)});
+    const ModalFit fit = fit_modes(measured);
+    REQUIRE(fit.model.modes.size() == truth.modes.size());
+    // Errors over deviations, and the correlations that they should have.
+    Eigen::VectorXd off(10 * count), deviation(10 * count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const dynamics::Mode& mode = fit.model.modes[k];
+      const dynamics::Mode expected = dynamics::normalised(truth.modes[k]);
+      Eigen::VectorXd error(10);
+      error.head<2>() << mode.frequency_hz - expected.frequency_hz,
+          mode.damping_ratio - expected.damping_ratio;
+      for (Eigen::Index i = 0; i < 2; ++i) {
+        const Complex right = mode.psi_r[i] - expected.psi_r[i], left = mode.psi_l[i] - expected.psi_l[i];
+        error.segment<2>(2 + 2 * i) << right.real(), right.imag();
+        error.segment<2>(6 + 2 * i) << left.real(), left.imag();
+      }
+      deviation.segment(10 * k, 10) = fit.model.deviation(k);
+      off.segment(10 * k, 10) = error.cwiseQuotient(fit.model.deviation(k));
     }
+    by_deviation += off.squaredNorm() / static_cast<double>(10 * count) / kSeeds;
+    const Eigen::MatrixXd correlation =
+        deviation.cwiseInverse().asDiagonal() * fit.model.covariance * deviation.cwiseInverse().asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation);
+    // The scale of a mode is fixed: 8 of its 10 numbers are free.
+    REQUIRE((eigen.eigenvalues().array() > 1e-7).count() == 8 * count);
+    for (Eigen::Index i = 2 * count; i < 10 * count; ++i)
+      square += std::pow(eigen.eigenvectors().col(i).dot(off), 2) / eigen.eigenvalues()[i];
   }
-  CHECK(square / static_cast<double>(8 * truth.modes.size()) == Approx(1).margin(0.7));
+  // 576 squares of normal numbers: their mean to 6 %.
+  CHECK(square / static_cast<double>(8 * count * kSeeds) == Approx(1).margin(0.25));
+  CHECK(by_deviation == Approx(1).margin(0.25));
 }
 
 TEST_CASE("a suspended structure's rigid body is one mode below the lines") {

@@ -25,7 +25,7 @@ struct Seen {
   }
 };
 
-// The direction in which both is known and the mode largest, or -1.
+// The direction that had both response and force, and in which the mode is largest; -1 without one.
 Eigen::Index known_direction(const Seen& seen, const dynamics::Mode& mode) {
   Eigen::Index best = -1;
   double largest = 0;
@@ -39,7 +39,8 @@ Eigen::Index known_direction(const Seen& seen, const dynamics::Mode& mode) {
   return best;
 }
 
-// Completes the mode, and gives the slope of its coordinates by those before.
+// Fills in the components that no curve shows: psi_l = ratio psi_r, with the ratio of a known direction.
+// Returns the Jacobian of the coordinates with respect to those before.
 Eigen::MatrixXd complete_by_reciprocity(const Seen& seen, const ModeParameters& parameters,
                                         dynamics::Mode& mode) {
   Eigen::MatrixXd slope =
@@ -93,7 +94,7 @@ FittedTable fitted_table(const FitData& data, const std::vector<dynamics::Mode>&
   }
   // The weights are 1 / E|error|^2 of the complex value, so each part has half of that variance.
   const Likelihood likelihood(data, parameters, out_of_band(data, modes));
-  table.covariance = slope * (inverse_of(likelihood.evaluate(x, true)) / 2) * slope.transpose();
+  table.covariance = slope * (inverse_normal_matrix(likelihood.evaluate(x, true)) / 2) * slope.transpose();
   return table;
 }
 

@@ -1,5 +1,5 @@
-// From the refined modes of one group of directions to rows of a table: what no curve shows, the contract's
-// scale, and how sure all of it is.
+// From the refined modes of one group of directions to rows of a table: components that no curve shows, the
+// scale that modal tables have, and how sure all of it is. README.md, "Uncertainty".
 #pragma once
 
 #include <Eigen/Core>
@@ -13,13 +13,14 @@ namespace stablecut::modal {
 struct FittedTable {
   std::vector<dynamics::Mode> modes;  ///< as given, completed and normalised
   Eigen::MatrixXd covariance;         ///< of their parameters, in the order of ModalModel::covariance
-  /// Some vector components are shown by no curve, because nothing was measured or nothing pushed in that
-  /// direction: they follow by reciprocity from a direction in which both was done, else they are zero.
+  /// Some vector components are shown by no curve, because no response or no force was in that direction.
+  /// They follow by reciprocity from a direction that had both; where there is none they are zero.
   bool by_reciprocity = false;
 };
 
-/// Covariance from the Fisher information of the weighted curves (the Cramer-Rao bound of the model), carried
-/// on to first order. Modes outside the band carry their weak prior.
+/// The covariance is the inverse of the Fisher information of the weighted curves, the Cramer-Rao bound
+/// [Cramer1946] [Rao1945], carried to the table's parameters to first order. For modes outside the band it
+/// includes their prior.
 FittedTable fitted_table(const FitData& data, const std::vector<dynamics::Mode>& modes, ModeModel model);
 
 }  // namespace stablecut::modal

@@ -12,53 +12,57 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// What holds for a mode outside the band when the data do not say: -Re / Im, and the deviations of the
-// logarithms.
-constexpr double kResidualDamping = 0.05;
-constexpr double kResidualDampingDeviation = 0.5;
-constexpr double kResidualPlaceDeviation = 1;
-// Of the diagonal, so that a mode without residue does not stop the factorization.
-constexpr double kRidge = 1e-13;
+// The prior of a mode outside the band: its damping -Re lambda / Im lambda, its place in band ends below or
+// above the band, and the standard deviations of the logarithms of both.
+constexpr double kPriorDamping = 0.05, kPriorDampingDeviation = 0.5;
+constexpr double kPriorPlace = 1.5, kPriorPlaceDeviation = 1;
+constexpr double kLeastPriorPlace = 1e-3;  // of the highest line, where the lowest is near 0
+// What the factorization adds to the diagonal, as shares of the entry and of the largest one; it grows by
+// kRidgeGrowth until the matrix is positive definite, or the share is 1.
+constexpr double kNormalRidge = 1e-13, kRidgeOfLargest = 1e-6, kRidgeGrowth = 100;
 
-// A complex coordinate of one curve: moving it by z changes the curve by z t g + conj(z t) g', where g is
-// function f of the poles (phi of pole k is 2 k, its square 2 k + 1) and g' the same of the conjugate pole.
-struct Direction {
-  Eigen::Index at;  // of its real part
+// How one complex coordinate of a mode moves one curve: by z it changes by z t g + conj(z t) g', where g is
+// function f of the poles (phi of pole k has f = 2 k, its square f = 2 k + 1) and g' the same function of the
+// conjugate pole.
+struct CurveDerivative {
+  Eigen::Index
+      at;  // place of the coordinate's real part among all coordinates; the imaginary part is the next
   Eigen::Index f;
   Complex t;
 };
 
-std::vector<Direction> curve_directions(const ModeParameters& parameters, const Curve& curve,
-                                        const std::vector<dynamics::Mode>& modes,
-                                        const Eigen::VectorXcd& residue) {
-  std::vector<Direction> directions;
+std::vector<CurveDerivative> curve_derivatives(const ModeParameters& parameters, const Curve& curve,
+                                               const std::vector<dynamics::Mode>& modes,
+                                               const Eigen::VectorXcd& residue) {
+  std::vector<CurveDerivative> derivatives;
   for (Eigen::Index k = 0; k < parameters.modes(); ++k) {
     const dynamics::Mode& mode = modes[k];
     const Eigen::Index first = k * parameters.coordinates_per_mode();
-    directions.push_back({first, 2 * k + 1, residue[k]});
-    directions.push_back({first + parameters.right_at(curve.response), 2 * k, mode.psi_l[curve.reference]});
-    directions.push_back({first + parameters.left_at(curve.reference), 2 * k, mode.psi_r[curve.response]});
+    derivatives.push_back({first, 2 * k + 1, residue[k]});
+    derivatives.push_back({first + parameters.right_at(curve.response), 2 * k, mode.psi_l[curve.reference]});
+    derivatives.push_back({first + parameters.left_at(curve.reference), 2 * k, mode.psi_r[curve.response]});
   }
-  return directions;
+  return derivatives;
 }
 
-void add_gradient(const std::vector<Direction>& directions, const CurveSums& sums,
+void add_gradient(const std::vector<CurveDerivative>& derivatives, const ErrorPoleSums& sums,
                   Eigen::VectorXd& gradient) {
   const Eigen::Index n = sums.error.size() / 2;
-  for (const Direction& d : directions) {
+  for (const CurveDerivative& d : derivatives) {
     const Eigen::VectorXcd& along = d.f % 2 == 0 ? sums.error : sums.error_squared;
-    // Re(conj(t) T + t T'), and the same with i t.
+    // Re(conj(t) a + t a') with a and a' the sums of the error along g and g', and the same with i t for t.
     const Complex own = std::conj(d.t) * along[d.f / 2], mirror = d.t * along[n + d.f / 2];
     gradient[d.at] += (own + mirror).real();
     gradient[d.at + 1] += (own - mirror).imag();
   }
 }
 
-// The columns of a direction are t g + conj(t) g' and the same with i t.
-void add_matrix(const std::vector<Direction>& directions, const PoleGrams& grams, Eigen::MatrixXd& matrix) {
-  for (std::size_t a = 0; a < directions.size(); ++a) {
-    for (std::size_t b = a; b < directions.size(); ++b) {
-      const Direction &p = directions[a], &q = directions[b];
+// J^T J of one curve. The columns of J for a coordinate are t g + conj(t) g' and the same with i t for t.
+void add_matrix(const std::vector<CurveDerivative>& derivatives, const PoleGrams& grams,
+                Eigen::MatrixXd& matrix) {
+  for (std::size_t a = 0; a < derivatives.size(); ++a) {
+    for (std::size_t b = a; b < derivatives.size(); ++b) {
+      const CurveDerivative &p = derivatives[a], &q = derivatives[b];
       const Complex same = std::conj(p.t) * q.t * grams.same(p.f, q.f);
       const Complex both = p.t * std::conj(q.t) * grams.mirrored(p.f, q.f);
       const Complex right = std::conj(p.t) * std::conj(q.t) * grams.across(p.f, q.f);
@@ -79,7 +83,7 @@ void add_matrix(const std::vector<Direction>& directions, const PoleGrams& grams
   }
 }
 
-// From the coordinates of the table to the free parameters: the slopes are block diagonal.
+// From the coordinates of the table to the free parameters: their Jacobian is block diagonal.
 NormalEquations to_parameters(const ModeParameters& parameters, const Eigen::Ref<const Eigen::VectorXd>& x,
                               const NormalEquations& coordinates) {
   NormalEquations result{coordinates.chi_square, Eigen::VectorXd(parameters.size()),
@@ -100,10 +104,10 @@ NormalEquations to_parameters(const ModeParameters& parameters, const Eigen::Ref
 
 Eigen::LLT<Eigen::MatrixXd> factorized(const Eigen::MatrixXd& matrix) {
   const double largest = matrix.diagonal().maxCoeff();
-  for (double ridge = kRidge;; ridge *= 100) {
+  for (double ridge = kNormalRidge;; ridge *= kRidgeGrowth) {
     Eigen::MatrixXd damped = matrix;
     damped.diagonal() +=
-        ridge * (matrix.diagonal() + Eigen::VectorXd::Constant(matrix.rows(), 1e-6 * largest));
+        ridge * (matrix.diagonal() + Eigen::VectorXd::Constant(matrix.rows(), kRidgeOfLargest * largest));
     Eigen::LLT<Eigen::MatrixXd> factor(damped);
     if (factor.info() == Eigen::Success || ridge > 1) return factor;
   }
@@ -132,16 +136,16 @@ NormalEquations Likelihood::evaluate(const Eigen::Ref<const Eigen::VectorXd>& x,
       residue(k, c) = mode.psi_r[curve.response] * mode.psi_l[curve.reference];
     }
   }
-  std::vector<CurveSums> curve_sums;
-  sums.chi_square = residual_.evaluate(poles, residue, with_matrix ? &curve_sums : nullptr);
+  std::vector<ErrorPoleSums> sums_of_curves;
+  sums.chi_square = residual_.evaluate(poles, residue, with_matrix ? &sums_of_curves : nullptr);
   if (with_matrix) {
     PoleGrams grams(poles);
-    for (std::size_t c = 0; c < curve_sums.size(); ++c) {
-      const std::vector<Direction> directions =
-          curve_directions(parameters_, data_.curves[c], modes, residue.col(c));
-      grams.evaluate(curve_sums[c].weight, curve_sums[c].weight_squared);
-      add_gradient(directions, curve_sums[c], sums.gradient);
-      add_matrix(directions, grams, sums.matrix);
+    for (std::size_t c = 0; c < sums_of_curves.size(); ++c) {
+      const std::vector<CurveDerivative> derivatives =
+          curve_derivatives(parameters_, data_.curves[c], modes, residue.col(c));
+      grams.evaluate(sums_of_curves[c].weight, sums_of_curves[c].weight_squared);
+      add_gradient(derivatives, sums_of_curves[c], sums.gradient);
+      add_matrix(derivatives, grams, sums.matrix);
     }
   }
   NormalEquations result = with_matrix ? to_parameters(parameters_, x, sums) : std::move(sums);
@@ -149,11 +153,12 @@ NormalEquations Likelihood::evaluate(const Eigen::Ref<const Eigen::VectorXd>& x,
   return result;
 }
 
-// Outside the band the data may not tell damping and distance: then a common damping and a place near the
-// band hold, so that the residual mode cannot chatter by itself. Where the data tell, they outweigh this.
+// The curves may not tell damping and distance of a mode outside the band: then a usual damping and a place
+// near the band hold, so that a stability chart does not find it chatter. Where the curves tell, they
+// outweigh this.
 void Likelihood::add_priors(const Eigen::Ref<const Eigen::VectorXd>& x, bool with_matrix,
                             NormalEquations& result) const {
-  const double lo = data_.s[0].imag(), hi = data_.s[data_.lines() - 1].imag();
+  const double lo = data_.lowest(), hi = data_.highest();
   const auto add = [&](Eigen::Index at, double expected, double deviation) {
     const double off = (x[at] - expected) / deviation;
     result.chi_square += off * off / 2;
@@ -164,23 +169,21 @@ void Likelihood::add_priors(const Eigen::Ref<const Eigen::VectorXd>& x, bool wit
   for (Eigen::Index k = 0; k < parameters_.modes(); ++k) {
     if (!out_of_band_[k]) continue;
     const Eigen::Index at = parameters_.pole_at(k);
-    add(at, std::log(kResidualDamping), kResidualDampingDeviation);
+    add(at, std::log(kPriorDamping), kPriorDampingDeviation);
     const bool above = x[at + 1] > std::log(hi);
-    add(at + 1, above ? std::log(1.5 * hi) : std::log(std::max(lo / 1.5, 1e-3 * hi)),
-        kResidualPlaceDeviation);
+    add(at + 1,
+        above ? std::log(kPriorPlace * hi) : std::log(std::max(lo / kPriorPlace, kLeastPriorPlace * hi)),
+        kPriorPlaceDeviation);
   }
 }
 
 std::vector<bool> out_of_band(const FitData& data, const std::vector<dynamics::Mode>& modes) {
   std::vector<bool> result;
-  for (const dynamics::Mode& mode : modes) {
-    const double omega = mode.pole().imag();
-    result.push_back(omega < data.s[0].imag() || omega > data.s[data.lines() - 1].imag());
-  }
+  for (const dynamics::Mode& mode : modes) result.push_back(!data.in_band(mode.pole()));
   return result;
 }
 
-Eigen::MatrixXd inverse_of(const NormalEquations& normal) {
+Eigen::MatrixXd inverse_normal_matrix(const NormalEquations& normal) {
   return factorized(normal.matrix)
       .solve(Eigen::MatrixXd::Identity(normal.matrix.rows(), normal.matrix.rows()));
 }

@@ -1,4 +1,5 @@
-// How well modes explain weighted curves, with what a Gauss-Newton step and the Fisher information need.
+// How well modes explain weighted curves, with the gradient and matrix that a Gauss-Newton step and the
+// Fisher information need [Kay1993] [Pintelon2012]: README.md, "Likelihood".
 #pragma once
 
 #include <Eigen/Core>
@@ -9,21 +10,23 @@
 
 namespace stablecut::modal {
 
-/// With r the weighted residual of all curves and J its Jacobian: chi-square |r|^2, J^T r and J^T J.
+/// With r the weighted residual of all curves and J its Jacobian with respect to the parameters: |r|^2, J^T
+/// r, J^T J.
 struct NormalEquations {
   double chi_square = 0;     ///< sum over lines and curves of |model - h|^2 / variance
   Eigen::VectorXd gradient;  ///< [parameters]
   Eigen::MatrixXd matrix;    ///< [parameters x parameters]
 };
 
-/// The modes' likelihood, as a function of their free parameters. Modes outside the band are held near it and
-/// damped by a weak prior, which chi-square holds.
+/// chi-square of modes and its derivatives, as functions of their free parameters. A weak prior, which is
+/// part of chi-square, holds modes outside the band near it and damped: what the curves do not tell of them
+/// must not drift.
 class Likelihood {
  public:
   /// `out_of_band` [modes]. Both references must outlive this.
   Likelihood(const FitData& data, const ModeParameters& parameters, std::vector<bool> out_of_band);
 
-  /// Without the matrix also without the gradient.
+  /// At the parameters x; without the matrix also without the gradient.
   NormalEquations evaluate(const Eigen::Ref<const Eigen::VectorXd>& x, bool with_matrix) const;
 
  private:
@@ -36,12 +39,13 @@ class Likelihood {
   std::vector<bool> out_of_band_;
 };
 
-/// Whether a mode lies outside the band of the data.
+/// Whether each mode lies outside the band of the data.
 std::vector<bool> out_of_band(const FitData& data, const std::vector<dynamics::Mode>& modes);
 
-/// Inverse of J^T J, by Cholesky; a mode without residue does not stop it.
-Eigen::MatrixXd inverse_of(const NormalEquations& normal);
-/// U with U^T U = J^T J, as well as that can be factorized.
+/// Inverse of J^T J by Cholesky, with a ridge that is large enough where J^T J is singular (a mode without
+/// residue).
+Eigen::MatrixXd inverse_normal_matrix(const NormalEquations& normal);
+/// Upper triangular U with U^T U = J^T J plus that ridge.
 Eigen::MatrixXd upper_factor(const NormalEquations& normal);
 
 }  // namespace stablecut::modal

@@ -1,7 +1,6 @@
 #include "modal/maximum_likelihood.h"
 
 #include <ceres/ceres.h>
-#include <glog/logging.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -15,13 +14,20 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Bounds: of -Re lambda / Im lambda, and of Im lambda in units of the highest line. What stands for modes far
-// above the band looks nearly the same from three times the band on, and would only be dear to follow through
-// a cut.
+// Bounds, kept as Ceres does [Kanzow2004]: of -Re lambda / Im lambda, and of Im lambda over the highest line.
+// A mode far above the band looks nearly the same from three times the band on, and a high frequency costs
+// time in a stability chart.
 constexpr double kLeastRatio = 1e-6, kLargestRatio = 20;
 constexpr double kLeastRate = 1e-5, kLargestRate = 3;
-// Least squares depend on the long residual r and its Jacobian J only through J^T J, J^T r and |r|^2. So the
-// solver gets a short equivalent: with U^T U = J^T J the residual (U^-T J^T r, rest) and the Jacobian (U, 0).
+constexpr double kStepTolerance = 1e-13;  // relative size of a step that ends a refinement
+// A refinement that was stopped has settled when the last steps brought a smaller share than that of the
+// cost.
+constexpr std::size_t kLastSteps = 20;
+constexpr double kNextToNothing = 1e-3;
+
+// Least squares depend on the residual r of all lines and its Jacobian J only through J^T J, J^T r and |r|^2.
+// So the solver gets a short equivalent: with U^T U = J^T J the residual (U^-T J^T r, rest) and the Jacobian
+// (U, 0).
 class CompressedCost : public ceres::CostFunction {
  public:
   explicit CompressedCost(const Likelihood& likelihood, Eigen::Index size)
@@ -56,7 +62,7 @@ class CompressedCost : public ceres::CostFunction {
 
 Eigen::VectorXd removal_loss(const ModeParameters& parameters, const Eigen::VectorXd& x,
                              const NormalEquations& normal) {
-  const Eigen::MatrixXd covariance = inverse_of(normal);
+  const Eigen::MatrixXd covariance = inverse_normal_matrix(normal);
   Eigen::VectorXd loss(parameters.modes());
   for (Eigen::Index k = 0; k < loss.size(); ++k) {
     const Eigen::VectorXd change = parameters.removal(x, k);
@@ -67,13 +73,11 @@ Eigen::VectorXd removal_loss(const ModeParameters& parameters, const Eigen::Vect
   return loss;
 }
 
-// The last steps brought next to nothing: along a direction that the data hardly see.
+// The refinement was stopped while it moved along something that the curves hardly see.
 bool has_settled(const ceres::Solver::Summary& summary) {
-  constexpr std::size_t kSteps = 20;
-  constexpr double kNextToNothing = 1e-3;
   const auto& steps = summary.iterations;
-  return summary.IsSolutionUsable() && steps.size() > kSteps &&
-         steps[steps.size() - 1 - kSteps].cost - summary.final_cost < kNextToNothing * summary.final_cost;
+  return summary.IsSolutionUsable() && steps.size() > kLastSteps &&
+         steps[steps.size() - 1 - kLastSteps].cost - summary.final_cost < kNextToNothing * summary.final_cost;
 }
 
 }  // namespace
@@ -89,9 +93,6 @@ RefinedModes refine_modes(const FitData& data, const std::vector<dynamics::Mode>
   const ModeParameters parameters(start, data.dofs, model);
   const Likelihood likelihood(data, parameters, out_of_band(data, start));
   Eigen::VectorXd x = parameters.pack(start);
-
-  static const auto silent = FLAGS_minloglevel = google::GLOG_FATAL;  // a library that prints is a bug
-  static_cast<void>(silent);
   ceres::Problem problem;
   problem.AddResidualBlock(new CompressedCost(likelihood, parameters.size()), nullptr, x.data());
   const double highest = data.s.cwiseAbs().maxCoeff();
@@ -110,8 +111,8 @@ RefinedModes refine_modes(const FitData& data, const std::vector<dynamics::Mode>
   options.max_num_iterations = effort.iterations;
   options.function_tolerance = effort.tolerance / complex_values;
   options.gradient_tolerance = 0;
-  options.parameter_tolerance = 1e-13;
-  options.max_num_line_search_step_size_iterations = 0;  // at bounds: a step is cut, or made shorter
+  options.parameter_tolerance = kStepTolerance;
+  options.max_num_line_search_step_size_iterations = 0;  // a step that meets a bound is cut there
   options.logging_type = ceres::SILENT;
   options.num_threads = 1;
   ceres::Solver::Summary summary;

@@ -1,4 +1,5 @@
-// Joint maximum-likelihood refinement of rank-1 non-symmetric modes (thesis 6.3.2, weighted by the noise).
+// All modes refined together by maximum likelihood ([RobotMillingThesis, 6.3.2], weighted by the noise):
+// README.md, "Refinement".
 #pragma once
 
 #include <vector>
@@ -12,20 +13,23 @@ namespace stablecut::modal {
 /// When a refinement ends.
 struct Effort {
   int iterations = 100;
-  double tolerance = 1e-5;  ///< change of chi_square, which is 1 for each value where only noise is left
+  /// A step that changes chi_square by less ends it; by chi_square over the number of values more where it is
+  /// larger.
+  double tolerance = 1e-5;
 };
 
 struct RefinedModes {
   std::vector<dynamics::Mode> modes;
   double chi_square = 0;  ///< sum over lines and curves of |model - h|^2 / variance
   bool converged = false;
-  /// Loss in chi-square, to second order, when the mode's residue is taken away and all else adapts: [modes].
+  /// By how much chi-square grows, to second order, when a mode is taken away and all others adapt: [modes].
   Eigen::VectorXd removal_loss;
 };
 
-/// Minimises the weighted squared error of all curves at once over poles and vectors, from the given modes.
-/// Modes that start outside the band are held near it by a weak prior, which chi_square holds.
-/// Levenberg-Marquardt with analytic derivatives, until a step changes chi_square by less than the tolerance.
+/// Minimises the weighted squared error of all curves at once over poles and vectors, from the given modes,
+/// by Levenberg-Marquardt [Levenberg1944] [Marquardt1963] [Ceres], until a step changes chi_square by less
+/// than the tolerance. A weak prior, which is part of chi_square, holds modes that start outside the band
+/// near it. Without modes chi_square is that of the curves alone.
 RefinedModes refine_modes(const FitData& data, const std::vector<dynamics::Mode>& start, ModeModel model,
                           const Effort& effort);
 

@@ -4,6 +4,8 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "modal/maximum_likelihood.h"
 #include "numerics/lanes.h"
@@ -13,18 +15,42 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kDampings[] = {0.004, 0.02, 0.08, 0.3};
-constexpr double kOutsideDamping = 0.08;  // of what is tried outside the band, as residual modes have
-constexpr double kOutsideMargin = 2;      // how far outside
-constexpr double kReach = 60;             // half widths around a pole that say whether it is worth trying
+constexpr double kDampings[] = {0.004, 0.02, 0.08, 0.3};  // damping ratios that are tried
+constexpr double kOutsideDamping = 0.08;  // the one of them that is tried outside the band too
+constexpr double kOutsideMargin = 2;      // how far outside, as a factor of frequency
+constexpr double kPoleReach = 60;      // half widths around a pole whose lines say whether it is worth trying
+constexpr double kSpacingShare = 0.5;  // of the line spacing: poles are tried no closer together
 
-// The residual of a curve times its weight, in separate arrays, whole lanes long.
+// The residual of a curve times its weight, whole lanes long.
 struct WeightedResidual {
   Eigen::ArrayXd weight, re, im;
 };
 
-// Gram matrix and projection of the two real parts of a residue at the pole -alpha + i beta, on lines of
-// which omega is given: the sum of the pole and its mirror image, and i times their difference.
+struct WeightedResiduals {
+  Eigen::ArrayXd omega;  // filled up with the last line, which has no weight there
+  std::vector<WeightedResidual> curves;
+};
+
+WeightedResiduals weighted_residuals(const FitData& data, const std::vector<dynamics::Mode>& modes) {
+  const Eigen::Index lines = (data.lines() + numerics::kLanes - 1) / numerics::kLanes * numerics::kLanes;
+  WeightedResiduals result;
+  result.omega = Eigen::ArrayXd::Constant(lines, data.highest());
+  result.omega.head(data.lines()) = data.s.imag();
+  for (const Curve& curve : data.curves) {
+    const Eigen::VectorXcd left = curve.h - curve_of(modes, curve, data.s);
+    WeightedResidual weighted;
+    weighted.weight = weighted.re = weighted.im = Eigen::ArrayXd::Zero(lines);
+    weighted.weight.head(data.lines()) = curve.weight;
+    weighted.re.head(data.lines()) = curve.weight.array() * left.real().array();
+    weighted.im.head(data.lines()) = curve.weight.array() * left.imag().array();
+    result.curves.push_back(std::move(weighted));
+  }
+  return result;
+}
+
+// Weighted sums over some lines for the best residue of a pole -alpha + i beta. The curve of a residue a + i
+// b is a times `own`, the sum of the pole and its mirror image, plus b times `other`, i times their
+// difference.
 struct PairSums {
   double own_own, own_other, other_other, own_residual, other_residual;
 };
@@ -50,6 +76,37 @@ STABLECUT_WIDE PairSums pair_sums(const double* omega, const double* weight, con
           numerics::sum_of(br)};
 }
 
+// What a pole with the residues of least squares, one a curve, takes away of the weighted residual.
+struct Addition {
+  double gain = 0;
+  Eigen::RowVectorXcd residue;  // [curves]
+};
+
+std::optional<Addition> addition_at(const WeightedResiduals& residual, Complex pole) {
+  // The lines that the pole reaches, as whole lanes.
+  const double reach = -kPoleReach * pole.real();
+  const Eigen::ArrayXd& omega = residual.omega;
+  const Eigen::Index first =
+      (std::lower_bound(omega.begin(), omega.end(), pole.imag() - reach) - omega.begin()) / numerics::kLanes *
+      numerics::kLanes;
+  const Eigen::Index last = std::upper_bound(omega.begin(), omega.end(), pole.imag() + reach) - omega.begin();
+  const Eigen::Index count = (last - first + numerics::kLanes - 1) / numerics::kLanes * numerics::kLanes;
+  if (count <= 0) return std::nullopt;
+  Addition addition{0, Eigen::RowVectorXcd(residual.curves.size())};
+  for (std::size_t e = 0; e < residual.curves.size(); ++e) {
+    const WeightedResidual& curve = residual.curves[e];
+    const PairSums sums = pair_sums(&omega[first], &curve.weight[first], &curve.re[first], &curve.im[first],
+                                    count, -pole.real(), pole.imag());
+    const Eigen::Matrix2d gram =
+        (Eigen::Matrix2d() << sums.own_own, sums.own_other, sums.own_other, sums.other_other).finished();
+    const Eigen::Vector2d projection(sums.own_residual, sums.other_residual);
+    const Eigen::Vector2d parts = gram.inverse() * projection;
+    addition.residue[e] = {parts[0], parts[1]};
+    if (parts.allFinite()) addition.gain += parts.dot(projection);
+  }
+  return addition;
+}
+
 }  // namespace
 
 dynamics::Mode rank_one_mode(const FitData& data, Complex pole, const Eigen::RowVectorXcd& residue) {
@@ -71,54 +128,19 @@ dynamics::Mode rank_one_mode(const FitData& data, Complex pole, const Eigen::Row
 }
 
 dynamics::Mode best_addition(const FitData& data, const std::vector<dynamics::Mode>& modes) {
-  // Filled up with lines far away that have no weight.
-  const Eigen::Index lines = (data.lines() + numerics::kLanes - 1) / numerics::kLanes * numerics::kLanes;
-  const double lowest = data.s[0].imag(), highest = data.s[data.lines() - 1].imag();
-  Eigen::ArrayXd omega = Eigen::ArrayXd::Constant(lines, highest);
-  omega.head(data.lines()) = data.s.imag();
-  std::vector<WeightedResidual> residual;
-  for (const Curve& curve : data.curves) {
-    const Eigen::VectorXcd left = curve.h - curve_of(modes, curve, data.s);
-    WeightedResidual weighted;
-    weighted.weight = weighted.re = weighted.im = Eigen::ArrayXd::Zero(lines);
-    weighted.weight.head(data.lines()) = curve.weight;
-    weighted.re.head(data.lines()) = curve.weight.array() * left.real().array();
-    weighted.im.head(data.lines()) = curve.weight.array() * left.imag().array();
-    residual.push_back(std::move(weighted));
-  }
+  const WeightedResiduals residual = weighted_residuals(data, modes);
   const double spacing = data.line_spacing();
   double best_gain = -1;
   dynamics::Mode best;
   for (const double zeta : kDampings) {
     const double margin = zeta == kOutsideDamping ? kOutsideMargin : 1;
-    for (double rate = std::max(lowest, spacing) / margin; rate <= highest * margin;
-         rate += std::max(zeta * rate, spacing / 2)) {
+    for (double rate = std::max(data.lowest(), spacing) / margin; rate <= data.highest() * margin;
+         rate += std::max(zeta * rate, kSpacingShare * spacing)) {
       const Complex pole = rate * Complex(-zeta, std::sqrt(1 - zeta * zeta));
-      // The lines it reaches, as whole lanes.
-      const double reach = -kReach * pole.real();
-      const Eigen::Index first =
-          (std::lower_bound(omega.begin(), omega.end(), pole.imag() - reach) - omega.begin()) /
-          numerics::kLanes * numerics::kLanes;
-      const Eigen::Index last =
-          std::upper_bound(omega.begin(), omega.end(), pole.imag() + reach) - omega.begin();
-      const Eigen::Index count = (last - first + numerics::kLanes - 1) / numerics::kLanes * numerics::kLanes;
-      if (count <= 0) continue;
-      Eigen::RowVectorXcd residue(residual.size());
-      double gain = 0;
-      for (std::size_t e = 0; e < residual.size(); ++e) {
-        const PairSums sums = pair_sums(&omega[first], &residual[e].weight[first], &residual[e].re[first],
-                                        &residual[e].im[first], count, -pole.real(), pole.imag());
-        const Eigen::Matrix2d gram =
-            (Eigen::Matrix2d() << sums.own_own, sums.own_other, sums.own_other, sums.other_other).finished();
-        const Eigen::Vector2d projection(sums.own_residual, sums.other_residual);
-        const Eigen::Vector2d parts = gram.inverse() * projection;
-        residue[e] = {parts[0], parts[1]};
-        if (parts.allFinite()) gain += parts.dot(projection);
-      }
-      if (gain > best_gain && residue.allFinite()) {
-        best_gain = gain;
-        best = rank_one_mode(data, pole, residue);
-      }
+      const std::optional<Addition> addition = addition_at(residual, pole);
+      if (!addition || !(addition->gain > best_gain) || !addition->residue.allFinite()) continue;
+      best_gain = addition->gain;
+      best = rank_one_mode(data, pole, addition->residue);
     }
   }
   return best;

@@ -7,9 +7,11 @@ namespace {
 
 using Complex = std::complex<double>;
 
-const Complex kPhase = std::polar(1.0, -0.7853981633974483);  // of psi where 2 i Im lambda psi psi^T is real
+// The phase of psi for which 2 i Im lambda psi psi^T is real: -45 degrees.
+const Complex kPhase = std::polar(1.0, -0.7853981633974483);
 
-// The symmetric vector nearest to a mode's two.
+// A symmetric mode's vector near both of a mode's vectors: their mean in the scale where they have equal
+// norms.
 Eigen::VectorXcd symmetric_vector(const dynamics::Mode& mode) {
   const dynamics::Mode balanced = dynamics::normalised(mode);
   return (balanced.psi_r + balanced.psi_l) / 2;

@@ -1,4 +1,5 @@
-// How a vector of free real numbers describes rank-1 modes, in each of the thesis' three models (6.3.1).
+// How a vector of free real numbers describes modes with rank-1 residues, in each of the three models of
+// [RobotMillingThesis, 6.3.1]: README.md, "Parameters".
 #pragma once
 
 #include <Eigen/Core>
@@ -16,44 +17,48 @@ enum class ModeModel {
   kProportional   ///< phi phi^T / (2 i Im lambda), phi real and normalised to unit mass (6-13)
 };
 
-/// Two sets of coordinates. The free parameters x, all modes in turn: log(-Re lambda / Im lambda), log(Im
-/// lambda), then for kNonsymmetric Re and Im of psi_r without its pivot (which stays 1) and of psi_l; for
-/// kSymmetric of psi; for kProportional phi / sqrt(2); psi_l, psi and phi in units of their size at the
-/// start, so that all parameters are about 1. And the coordinates of a table, with the free scale of a mode
-/// among them: Re lambda, Im lambda, then Re and Im of each component of psi_r, then of psi_l.
+/// Two sets of numbers for the same modes.
+///
+/// The free parameters x, mode by mode: log(-Re lambda / Im lambda) and log(Im lambda), then the vectors. For
+/// kNonsymmetric Re and Im of psi_r without its pivot (its largest component, which stays 1) and Re and Im of
+/// psi_l; for kSymmetric Re and Im of psi; for kProportional phi / sqrt(2). psi_l, psi and phi are in units
+/// of their size at the start, so that all parameters are about 1.
+///
+/// The coordinates of a table, in which the free complex scale of a mode is not fixed: Re lambda, Im lambda
+/// (rad/s), then Re and Im of each component of psi_r, then of psi_l.
 class ModeParameters {
  public:
-  /// For modes like these (pivots and units are theirs), each with `dofs` directions.
+  /// Pivots and units are taken from `modes`, each with `dofs` directions.
   ModeParameters(const std::vector<dynamics::Mode>& modes, Eigen::Index dofs, ModeModel model);
 
   Eigen::Index modes() const { return pivot_.size(); }
-  /// Free parameters, and those of one mode.
+  /// Number of free parameters of all modes, and of one.
   Eigen::Index size() const { return modes() * per_mode(); }
   Eigen::Index per_mode() const { return per_mode(model_, dofs_); }
   static Eigen::Index per_mode(ModeModel model, Eigen::Index dofs);
 
-  /// Where the logarithms of a mode's pole stand in x, and the parameters of its vectors.
+  /// Places in x of a mode's two logarithms, and of the parameters of its vectors.
   Eigen::Index pole_at(Eigen::Index k) const { return k * per_mode(); }
   Eigen::Index vectors_at(Eigen::Index k) const { return pole_at(k) + 2; }
 
-  /// The parameters of given modes; for the restricted models of the nearest such ones.
+  /// The parameters of given modes; in a restricted model those of modes near them that are of that model.
   Eigen::VectorXd pack(const std::vector<dynamics::Mode>& modes) const;
   std::vector<dynamics::Mode> unpack(const Eigen::Ref<const Eigen::VectorXd>& x) const;
   std::complex<double> pole(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Index k) const;
 
-  /// Coordinates of one mode, and where they stand among its coordinates.
+  /// Number of coordinates of one mode, and the places among them of components of its vectors.
   Eigen::Index coordinates_per_mode() const { return 2 + 4 * dofs_; }
   Eigen::Index right_at(Eigen::Index i) const { return 2 + 2 * i; }
   Eigen::Index left_at(Eigen::Index j) const { return 2 + 2 * dofs_ + 2 * j; }
 
-  /// Derivatives of mode k's coordinates by its parameters [coordinates_per_mode x per_mode].
+  /// Jacobian of mode k's coordinates with respect to its parameters [coordinates_per_mode x per_mode].
   Eigen::MatrixXd slope(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Index k) const;
 
-  /// The change of mode k's last parameters (psi_l, psi or phi) that takes its residue away, to first order.
+  /// The change of mode k's last parameters (psi_l, psi or phi) that makes its residue zero, to first order.
   Eigen::VectorXd removal(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Index k) const;
 
  private:
-  // Of kNonsymmetric, from vectors_at on.
+  // Place of psi_r's component i behind vectors_at(k), for kNonsymmetric; i is not the pivot.
   Eigen::Index right_offset(Eigen::Index k, Eigen::Index i) const;
 
   Eigen::Index dofs_;

@@ -63,9 +63,10 @@ STABLECUT_WIDE void sums_over_lines(const double* omega, const double* w, const 
 
 }  // namespace
 
-Eigen::Matrix<Complex, Eigen::Dynamic, 4> curve_sums(const Eigen::VectorXcd& s, const Eigen::VectorXcd& poles,
-                                                     const Eigen::VectorXd& weight,
-                                                     const Eigen::VectorXcd& h) {
+Eigen::Matrix<Complex, Eigen::Dynamic, 4> data_pole_sums(const Eigen::VectorXcd& s,
+                                                         const Eigen::VectorXcd& poles,
+                                                         const Eigen::VectorXd& weight,
+                                                         const Eigen::VectorXcd& h) {
   // Whole lanes: what is filled up has no weight.
   const Eigen::Index lines = (s.size() + numerics::kLanes - 1) / numerics::kLanes * numerics::kLanes,
                      n = poles.size();

@@ -1,4 +1,5 @@
-// Sums over the lines that a fit with poles needs, without forming its Jacobian.
+// Sums over the lines that a fit with poles needs, without forming its Jacobian: README.md, "Sums over the
+// lines".
 //
 // With phi_a(w) = 1 / (i w - a) and real weights, partial fractions give
 //   sum w conj(phi_a) phi_b = -(S(b) + conj S(a)) / (b + conj a),   S(a) = sum w / (i w - a),
@@ -25,14 +26,14 @@ void add_pole_pair(const Eigen::VectorXcd& s, std::complex<double> pole, std::co
                    Eigen::VectorXcd& h);
 
 /// Sums over the lines of phi times w, w h, w conj(h) and w |h|^2 (columns), for all poles and then for their
-/// conjugates: [2 poles x 4]. In one pass, without forming phi.
-Eigen::Matrix<std::complex<double>, Eigen::Dynamic, 4> curve_sums(const Eigen::VectorXcd& s,
-                                                                  const Eigen::VectorXcd& poles,
-                                                                  const Eigen::VectorXd& weight,
-                                                                  const Eigen::VectorXcd& h);
+/// conjugates: [2 poles x 4]. phi is 1 / (s - pole), w the weights [lines], h the curve [lines].
+Eigen::Matrix<std::complex<double>, Eigen::Dynamic, 4> data_pole_sums(const Eigen::VectorXcd& s,
+                                                                      const Eigen::VectorXcd& poles,
+                                                                      const Eigen::VectorXd& weight,
+                                                                      const Eigen::VectorXcd& h);
 
-/// Weighted inner products sum w conj(g_a) g_b over the lines, of functions g of the poles: phi of pole k is
-/// number 2 k, its square 2 k + 1; g' is the same function of the conjugate pole.
+/// Weighted inner products sum w conj(g_a) g_b over the lines of functions g of the poles: phi of pole k has
+/// number 2 k, its square number 2 k + 1. g' is the same function of the conjugate pole.
 class PoleGrams {
  public:
   explicit PoleGrams(const Eigen::VectorXcd& poles);

@@ -62,6 +62,6 @@ TEST_CASE("sums of a curve in one pass, for any number of lines") {
     c << weight.cast<std::complex<double>>(), weight.cwiseProduct(h), weight.cwiseProduct(h.conjugate()),
         weight.cwiseProduct(h.cwiseAbs2()).cast<std::complex<double>>();
     const Eigen::MatrixXcd expected = phi.transpose() * c;
-    CHECK((curve_sums(s, poles, weight, h) - expected).norm() < 1e-13 * expected.norm());
+    CHECK((data_pole_sums(s, poles, weight, h) - expected).norm() < 1e-13 * expected.norm());
   }
 }

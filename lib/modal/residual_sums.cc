@@ -13,7 +13,7 @@ using Complex = std::complex<double>;
 constexpr Eigen::Index kBlock = 128;  // lines at a time; whole lanes
 
 // phi of a pole on the lines.
-STABLECUT_WIDE void pole_on_lines(const double* omega, Eigen::Index lines, double alpha, double beta,
+STABLECUT_WIDE void pole_on_lanes(const double* omega, Eigen::Index lines, double alpha, double beta,
                                   double* re, double* im) {
   for (Eigen::Index i = 0; i < lines; i += numerics::kLanes) {
     const numerics::Lanes off = numerics::load_lanes(omega + i) - beta;
@@ -93,7 +93,7 @@ ResidualSums::ResidualSums(const FitData& data) : curves_(data.curves.size()) {
 }
 
 double ResidualSums::evaluate(const Eigen::VectorXcd& poles, const Eigen::MatrixXcd& residue,
-                              std::vector<CurveSums>* sums) const {
+                              std::vector<ErrorPoleSums>* sums) const {
   const Eigen::Index n = poles.size();
   Eigen::ArrayXXd phi_re(kBlock, 2 * n), phi_im(kBlock, 2 * n), error_re(kBlock, curves_),
       error_im(kBlock, curves_);
@@ -104,7 +104,7 @@ double ResidualSums::evaluate(const Eigen::VectorXcd& poles, const Eigen::Matrix
     const Eigen::Index lines = std::min(kBlock, omega_.size() - first);
     for (Eigen::Index f = 0; f < 2 * n; ++f) {
       const double beta = f < n ? poles[f].imag() : -poles[f - n].imag();
-      pole_on_lines(&omega_[first], lines, poles[f % n].real(), beta, &phi_re(0, f), &phi_im(0, f));
+      pole_on_lanes(&omega_[first], lines, poles[f % n].real(), beta, &phi_re(0, f), &phi_im(0, f));
     }
     error_re.setZero();
     error_im.setZero();

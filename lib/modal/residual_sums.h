@@ -1,4 +1,5 @@
-// What a refinement needs of all lines: the residual of each curve, and its sums with the poles' functions.
+// What a refinement needs of all lines: chi-square, and the sums of each curve's residual with 1 / (s - pole)
+// and its square. README.md, "Sums over the lines".
 #pragma once
 
 #include <Eigen/Core>
@@ -8,16 +9,17 @@
 
 namespace stablecut::modal {
 
-/// Sums over the lines of one curve, for all poles and then for their conjugates: [2 poles]. phi is 1 / (i w
-/// - pole), w the weight and e = model - h.
-struct CurveSums {
+/// Sums over the lines of one curve, for all poles and then for their conjugates: [2 poles]. phi is 1 / (s -
+/// pole), w the weight and e = model - h.
+struct ErrorPoleSums {
   Eigen::VectorXcd weight;          ///< sum w phi
   Eigen::VectorXcd weight_squared;  ///< sum w phi^2
   Eigen::VectorXcd error;           ///< sum w e conj(phi)
   Eigen::VectorXcd error_squared;   ///< sum w e conj(phi^2)
 };
 
-/// The curves' lines in separate arrays, whole lanes long, walked through in blocks that stay in the cache.
+/// The curves in separate arrays for real and imaginary parts, filled up to whole lanes, summed over in
+/// blocks of lines that stay in the first cache.
 class ResidualSums {
  public:
   explicit ResidualSums(const FitData& data);
@@ -25,7 +27,7 @@ class ResidualSums {
   /// chi-square, the sum of w |e|^2 over lines and curves, for poles and their residues [poles x curves]; and
   /// the curves' sums where `sums` is not null.
   double evaluate(const Eigen::VectorXcd& poles, const Eigen::MatrixXcd& residue,
-                  std::vector<CurveSums>* sums) const;
+                  std::vector<ErrorPoleSums>* sums) const;
 
  private:
   Eigen::Index curves_;

@@ -13,7 +13,7 @@ namespace stablecut::modal {
 namespace {
 
 constexpr int kLeastPairs = 3;
-constexpr int kRelocations = 10;
+constexpr int kDiagramRelocations = 10;
 constexpr double kFrequencyChange = 0.01;
 constexpr double kDampingChange = 0.1;
 
@@ -22,10 +22,10 @@ std::vector<StabilizationPole> poles_of(const FitData& data, int order) {
   Eigen::VectorXcd poles = starting_poles(data, order);
   // The start adds one on either side of the band.
   poles = poles.segment(1, poles.size() - 2).eval();
-  for (int i = 0; i < kRelocations; ++i) poles = relocate_poles(data, poles);
+  for (int i = 0; i < kDiagramRelocations; ++i) poles = relocate_poles(data, poles);
   std::vector<StabilizationPole> result;
   for (const auto& pole : poles) {
-    if (pole.imag() < data.s[0].imag() || pole.imag() > data.s[data.lines() - 1].imag()) continue;
+    if (!data.in_band(pole)) continue;
     dynamics::Mode mode;
     dynamics::set_pole(mode, pole);
     result.push_back({mode.frequency_hz, mode.damping_ratio, Stability::kNew});
@@ -33,6 +33,7 @@ std::vector<StabilizationPole> poles_of(const FitData& data, int order) {
   return result;
 }
 
+// Says of each pole what it has in common with those of the order before.
 void compare(const std::vector<StabilizationPole>& before, std::vector<StabilizationPole>& now) {
   for (StabilizationPole& pole : now) {
     for (const StabilizationPole& other : before) {
@@ -48,13 +49,13 @@ void compare(const std::vector<StabilizationPole>& before, std::vector<Stabiliza
 
 std::vector<StabilizationOrder> stabilization(const std::vector<FitData>& groups, int highest, int threads,
                                               const Progress& progress) {
-  // More pairs than lines can tell apart have no least squares.
-  for (const FitData& data : groups) highest = std::min(highest, static_cast<int>(data.lines() / 3));
+  for (const FitData& data : groups)
+    highest = std::min(highest, static_cast<int>(data.lines() / kLinesPerPair));
   const int count = std::max(0, highest - kLeastPairs + 1);
   const std::size_t orders = count;
   std::vector<StabilizationOrder> result(orders);
   std::vector<std::vector<StabilizationPole>> found(orders * groups.size());
-  // The dear ones first.
+  // The highest orders, which cost most, first.
   parallel_for(
       found.size(), threads,
       [&](std::size_t i) {

@@ -1,4 +1,5 @@
-// The stabilization diagram: poles of fits of rising order, and which of them stay where they are.
+// The stabilization diagram [VanDerAuweraer2004]: poles of fits of rising order, and which of them stay where
+// they are.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,13 +29,14 @@ struct StabilizationOrder {
   std::vector<StabilizationPole> poles;  ///< in the band, of all groups, by frequency
 };
 
-/// Vector fitting of weighted curves with 3, 4, ... `highest` pole pairs, each group of directions for
-/// itself.
+/// Vector fitting of weighted curves with 3, 4, ... `highest` pole pairs (fewer where there are few lines),
+/// each group of directions for itself; on `threads` threads, with the same result on any number.
 std::vector<StabilizationOrder> stabilization(const std::vector<FitData>& groups, int highest, int threads,
                                               const Progress& progress);
 
-/// Complex mode indicator function: singular values of H on each line, largest first, [lines x directions]. A
-/// missing entry counts as zero. Peaks of the second show a second mode at the same frequency.
+/// Complex mode indicator function [Shih1988]: singular values of H on each line, largest first, m/N, [lines
+/// x directions]. A missing entry counts as zero. Peaks of the second show a second mode at the same
+/// frequency.
 Eigen::MatrixXd mode_indicator(const dynamics::FrequencyResponse& frf);
 
 }  // namespace stablecut::modal

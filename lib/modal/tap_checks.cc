@@ -3,399 +3,323 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <optional>
 
-#include "base/number_text.h"
 #include "base/units.h"
-#include "dynamics/noise.h"
 #include "modal/disturbed_lines.h"
+#include "modal/tap_channels.h"
 #include "numerics/order_statistics.h"
 
 namespace stablecut::modal {
 namespace {
 
-using numerics::median;
 using Complex = std::complex<double>;
+using numerics::median;
+using Findings = std::vector<TapFinding>;
 
-constexpr double kUnevenLines = 1.05;
-// Windows of lines, a sixth of an octave wide and of five lines at least.
-constexpr double kWindowRatio = 1.1225;
-constexpr Eigen::Index kLeastWindow = 5;
-// Of fewer lines nothing can be said.
-constexpr Eigen::Index kLeastLines = 20;
-// A window tells nothing when the noise's deviation is this share of the signal, and ...
-constexpr double kNoiseShare = 0.3;
-// ... cannot be a structure's driving point when its imaginary part is positive by this share of the modulus.
-constexpr double kPositiveShare = 0.1;
-// What is ruined rises towards 0 Hz: by so much over what follows. It ends where a clear curve rises.
-constexpr double kRise = 2, kClear = 0.1, kRising = 1.3;
-// Noise alone: nothing but it in most windows.
-constexpr double kDeadShare = 0.6, kDeadWindows = 0.8;
-// A part of H that counts: so many deviations.
+constexpr Eigen::Index kLeastTapLines = 20;  // of fewer nothing is said
+constexpr double kUnevenLines = 1.05;        // largest over smallest distance of lines
+constexpr double kRoundedLines = 0.5;        // of the mean distance: rounded frequencies are off by less
+// Drift rises towards 0 Hz by a factor of at least kDriftRise over what follows it. It ends where a curve
+// that is clear of noise (kClear) rises by kRising on the way to a resonance, and reaches up to a part of the
+// band at most.
+constexpr double kDriftRise = 2, kClear = 0.1, kRising = 1.3, kDriftReach = 3;
+// A part of H counts where it is so many deviations of the noise.
 constexpr double kSignificant = 2;
-constexpr double kWrongSign = 0.8, kPoorCoherence = 0.8, kNotReciprocal = 0.1;
-// Of the variance of the coherence, in one period.
-constexpr double kOnePeriod = 0.25;
+constexpr double kWrongSign = 0.8;  // share of what counts with a sign from which on that is said
+// A part has one sign where the other's share is kOneSign at most; one of both where it is between the two.
+constexpr double kOneSign = 0.05, kSomeSign = 0.2;
+// The imaginary part is a good part of H (kTurned) in a good part of the windows (one in kTurningWindows).
+constexpr double kTurned = 0.5;
+constexpr std::ptrdiff_t kTurningWindows = 5;
+constexpr double kRisingSlope = 0.5, kFallingSlope = -2.5;  // of log |H| over log frequency
+// Relative difference of mirrored entries that is said, also in units of what noise alone would make.
+constexpr double kNotReciprocalShare = 0.1, kNotReciprocalNoises = 3;
+// Coherence is looked at where |H| is this part of its median; it is poor on one line in kPoorLines.
+constexpr double kPoorCoherenceLimit = 0.8, kResponding = 0.3;
+constexpr std::size_t kPoorLines = 20;
+// Dips of two hits: how many periods in the band are tried, in what steps, at least so many lines a period,
+// and the share of the coherence's variance that one period must hold.
+constexpr double kLeastDips = 4, kMostDips = 200, kDipStep = 0.25, kLinesPerDip = 4, kOnePeriod = 0.25;
 constexpr double kLargestPeak = 1e-2, kSmallestPeak = 1e-11;  // m/N
+// So many disturbed lines, or that share of all, are few.
+constexpr Eigen::Index kFewLines = 5;
+constexpr double kFewShare = 0.02;
 
-std::string number(double value) { return number_text(value, 3); }
-
-std::string name_of(const dynamics::FrequencyResponseEntry& entry) {
-  return "H" + entry.response + entry.reference;
+void check_spacing(const Eigen::VectorXd& hz, Findings& findings) {
+  const Eigen::VectorXd steps = hz.tail(hz.size() - 1) - hz.head(hz.size() - 1);
+  if (steps.maxCoeff() <= kUnevenLines * steps.minCoeff()) return;
+  const Eigen::VectorXd even = Eigen::VectorXd::LinSpaced(hz.size(), hz[0], hz[hz.size() - 1]);
+  if ((hz - even).cwiseAbs().maxCoeff() < kRoundedLines * steps.mean()) return;
+  findings.push_back(
+      {.kind = TapFindingKind::kUnevenLines, .least = steps.minCoeff(), .most = steps.maxCoeff()});
 }
 
-// Some neighbouring lines of an entry, by medians.
-struct Window {
-  double lo_hz = 0, hi_hz = 0;
-  double size = 0;      // |H|
-  double noise = 0;     // its deviation over |H|
-  double positive = 0;  // Im H / |H|
-  double real = 0;      // Re H / |H|
-};
-
-std::vector<Window> windows_of(const Eigen::VectorXd& hz, const Eigen::VectorXcd& h,
-                               const Eigen::VectorXd& variance) {
-  std::vector<Window> windows;
-  for (Eigen::Index first = 0; first < hz.size();) {
-    Eigen::Index end = std::min(first + kLeastWindow, hz.size());
-    while (end < hz.size() && hz[end] <= kWindowRatio * hz[first]) ++end;
-    if (hz.size() - end < kLeastWindow) end = hz.size();
-    std::vector<double> size, noise, positive, real;
-    for (Eigen::Index i = first; i < end; ++i) {
-      const double modulus = std::max(std::abs(h[i]), 1e-300);
-      size.push_back(modulus);
-      noise.push_back(std::sqrt(variance[i]) / modulus);
-      positive.push_back(h[i].imag() / modulus);
-      real.push_back(h[i].real() / modulus);
+void check_dead_channels(const dynamics::FrequencyResponse& receptance, const std::vector<Channel>& channels,
+                         bool zeros_are_dead, Findings& findings) {
+  for (const auto& entry : receptance.entries) {
+    const EntryName name{entry.response, entry.reference};
+    if (entry.h.isZero(0)) {
+      if (zeros_are_dead) findings.push_back({.kind = TapFindingKind::kZeroEntry, .entry = name});
+    } else if ((entry.h.array() == entry.h[0]).all()) {
+      findings.push_back({.kind = TapFindingKind::kConstantEntry, .entry = name});
     }
-    windows.push_back({hz[first], hz[end - 1], median(size), median(noise), median(positive), median(real)});
-    first = end;
   }
-  return windows;
+  for (const Channel& channel : channels) {
+    if (channel.dead) findings.push_back({.kind = TapFindingKind::kNothingButNoise, .entry = channel.name()});
+  }
 }
 
-// One entry with what its lines say.
-struct Channel {
-  const dynamics::FrequencyResponseEntry* entry = nullptr;
-  Eigen::VectorXd variance;  // of the noise, [lines]
-  std::vector<Window> windows;
-  bool driving_point = false;
-  bool swapped = false;  // a driving point with the other sign in most windows
-  bool dead = false;
-};
-
-bool is_driving_point(const dynamics::FrequencyResponseEntry& entry) {
-  return entry.response == entry.reference &&
-         entry.response_position_m.value_or(0) == entry.reference_position_m.value_or(0);
+// Noise, or no driving point's.
+bool tells_nothing(const Channel& channel, const WindowSummary& window) {
+  const double positive = channel.swapped ? -window.imaginary : window.imaginary;
+  return window.noise > kNoiseShare || (channel.driving_point && positive > kPositiveShare);
 }
 
-class TapChecks {
- public:
-  TapChecks(const dynamics::FrequencyResponse& receptance, bool zeros_are_dead)
-      : frf_(receptance), hz_(receptance.frequency_hz), zeros_are_dead_(zeros_are_dead) {
-    const dynamics::NoiseShapes floors = dynamics::floor_shapes(hz_);
-    for (const auto& entry : frf_.entries) {
-      if (entry.h.isZero(0)) continue;
-      Channel channel{&entry,
-                      dynamics::estimated_variance(hz_, entry.h, entry.h.cwiseAbs(), floors),
-                      {},
-                      is_driving_point(entry)};
-      channel.windows = windows_of(hz_, entry.h, channel.variance);
-      const auto windows = [&](double sign) {
-        return std::count_if(channel.windows.begin(), channel.windows.end(),
-                             [&](const Window& window) { return sign * window.positive > kPositiveShare; });
-      };
-      channel.swapped = channel.driving_point && windows(1) > 4 * windows(-1);
-      channels_.push_back(std::move(channel));
+// Up to where integration has ruined a channel: there |H| falls from 0 Hz on, and tells nothing. It ends
+// where a clear curve rises, on the way to a resonance.
+std::optional<double> drift_up_to(const Channel& channel, double highest_hz) {
+  const std::vector<WindowSummary>& windows = channel.windows;
+  std::size_t ruined = 0;
+  double least = windows[0].size;
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    const WindowSummary& window = windows[i];
+    least = std::min(least, window.size);
+    if (tells_nothing(channel, window)) {
+      ruined = i + 1;
+    } else if (window.noise < kClear && window.size > kRising * least) {
+      break;
     }
   }
+  if (ruined == 0 || ruined == windows.size()) return std::nullopt;
+  const bool rises = windows[0].size >= kDriftRise * windows[ruined].size;
+  const double up_to = windows[ruined - 1].hi_hz;
+  return rises && kDriftReach * up_to <= highest_hz ? std::optional(up_to) : std::nullopt;
+}
 
-  TapReport report() {
-    lines();
-    dead_channels();
-    low_end();
-    high_end();
-    signs();
-    mirror_images();
-    for (const auto& entry : frf_.entries) coherence(entry);
-    peak();
-    return {std::move(findings_), disturbed()};
+// The frequency above which all channels are usable, Hz. Driving points tell most; others count only where
+// there is none.
+double check_low_end(const std::vector<Channel>& channels, double highest_hz, Findings& findings) {
+  const bool any_driving = std::any_of(channels.begin(), channels.end(),
+                                       [](const Channel& c) { return c.driving_point && !c.dead; });
+  double usable_from = 0;
+  EntryName worst;
+  for (const Channel& channel : channels) {
+    if (channel.dead || channel.driving_point != any_driving) continue;
+    const std::optional<double> up_to = drift_up_to(channel, highest_hz);
+    if (!up_to || *up_to <= usable_from) continue;
+    usable_from = *up_to;
+    worst = channel.name();
   }
+  if (usable_from > 0)
+    findings.push_back({.kind = TapFindingKind::kDrift, .entry = worst, .hi_hz = usable_from});
+  return usable_from;
+}
 
- private:
-  void say(const std::string& text) { findings_.push_back(text); }
-
-  void lines() {
-    if (hz_.size() < 3) return;
-    const Eigen::VectorXd steps = hz_.tail(hz_.size() - 1) - hz_.head(hz_.size() - 1);
-    if (steps.maxCoeff() <= kUnevenLines * steps.minCoeff()) return;
-    // Frequencies that were rounded stay near equally spaced ones.
-    const Eigen::VectorXd even = Eigen::VectorXd::LinSpaced(hz_.size(), hz_[0], hz_[hz_.size() - 1]);
-    if ((hz_ - even).cwiseAbs().maxCoeff() < steps.mean() / 2) return;
-    say("the lines are " + number(steps.minCoeff()) + " to " + number(steps.maxCoeff()) +
-        " Hz apart: each counts alike, so that modes where they lie close are weighed more");
+void check_high_end(const std::vector<Channel>& channels, Findings& findings) {
+  double from = 0;
+  EntryName name;
+  for (const Channel& channel : channels) {
+    if (channel.dead) continue;
+    std::size_t first = channel.windows.size();
+    while (first > 0 && channel.windows[first - 1].noise > kNoiseShare) --first;
+    if (first == channel.windows.size() || first == 0) continue;
+    if (from != 0 && channel.windows[first].lo_hz >= from) continue;
+    from = channel.windows[first].lo_hz;
+    name = channel.name();
   }
+  if (from > 0) findings.push_back({.kind = TapFindingKind::kNoiseAtHighEnd, .entry = name, .lo_hz = from});
+}
 
-  void dead_channels() {
-    for (const auto& entry : frf_.entries) {
-      if (zeros_are_dead_ && entry.h.isZero(0))
-        say(name_of(entry) +
-            ": all lines are 0: a dead channel, or one that was not measured; taken as uncoupled");
-      else if (!entry.h.isZero(0) && entry.h.size() > 1 && (entry.h.array() == entry.h[0]).all())
-        say(name_of(entry) +
-            ": the same value on every line: a dead channel; what its modes would be is not measured");
-    }
-    for (Channel& channel : channels_) {
-      const auto count = std::count_if(channel.windows.begin(), channel.windows.end(),
-                                       [](const Window& window) { return window.noise > kDeadShare; });
-      channel.dead = static_cast<double>(count) > kDeadWindows * static_cast<double>(channel.windows.size());
-      if (channel.dead)
-        say(name_of(*channel.entry) +
-            ": nothing but noise: a dead channel, or uncoupled directions; it tells the fit nothing");
-    }
+// Share of the usable windows in which a part of H / |H| is positive, weighted by that part.
+double positive_share(const Channel& channel, double usable_from_hz, double WindowSummary::*part) {
+  double positive = 0, all = 0;
+  for (const WindowSummary& window : channel.windows) {
+    if (window.lo_hz <= usable_from_hz || window.noise > kNoiseShare) continue;
+    if (std::abs(window.*part) < kSignificant * window.noise) continue;
+    all += std::abs(window.*part);
+    positive += std::max(window.*part, 0.0);
   }
+  return all > 0 ? positive / all : 0.0;
+}
 
-  static bool tells_nothing(const Channel& channel, const Window& window) {
-    const double positive = channel.swapped ? -window.positive : window.positive;
-    return window.noise > kNoiseShare || (channel.driving_point && positive > kPositiveShare);
+// Not the curve of a stiffness or a mass alone, which is real.
+bool turns(const Channel& channel) {
+  const auto count =
+      std::count_if(channel.windows.begin(), channel.windows.end(),
+                    [](const WindowSummary& window) { return std::abs(window.imaginary) > kTurned; });
+  return kTurningWindows * count > static_cast<std::ptrdiff_t>(channel.windows.size());
+}
+
+// Slope of log |H| over log frequency, by least squares over the windows.
+double slope_of(const Channel& channel) {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (const WindowSummary& window : channel.windows) {
+    const double u = std::log(window.lo_hz), v = std::log(window.size);
+    n += 1;
+    x += u;
+    y += v;
+    xx += u * u;
+    xy += u * v;
   }
+  const double spread = n * xx - x * x;
+  return spread > 0 ? (n * xy - x * y) / spread : 0;
+}
 
-  // Up to where integration has ruined the data: there |H| falls from 0 Hz on, and is noise or no driving
-  // point's. It ends where a clear curve rises, on the way to a resonance.
-  std::optional<double> ruined_up_to(const Channel& channel) const {
-    const std::vector<Window>& windows = channel.windows;
-    std::size_t ruined = 0;
-    double least = windows[0].size;
-    for (std::size_t i = 0; i < windows.size(); ++i) {
-      const Window& window = windows[i];
-      least = std::min(least, window.size);
-      if (tells_nothing(channel, window)) {
-        ruined = i + 1;
-      } else if (window.noise < kClear && window.size > kRising * least) {
-        break;
-      }
-    }
-    if (ruined == 0 || ruined == windows.size()) return std::nullopt;
-    if (windows[0].size < kRise * windows[ruined].size || 3 * windows[ruined - 1].hi_hz > hz_[hz_.size() - 1])
-      return std::nullopt;
-    return windows[ruined - 1].hi_hz;
-  }
-
-  // Driving points tell most; other entries only where there is none.
-  void low_end() {
-    std::string worst;
-    const bool any_driving = std::any_of(channels_.begin(), channels_.end(),
-                                         [](const Channel& c) { return c.driving_point && !c.dead; });
-    for (const Channel& channel : channels_) {
-      if (channel.dead || channel.driving_point != any_driving) continue;
-      const auto up_to = ruined_up_to(channel);
-      if (!up_to || *up_to <= usable_from_) continue;
-      usable_from_ = *up_to;
-      worst = name_of(*channel.entry);
-    }
-    if (usable_from_ == 0) return;
-    say("below " + number(usable_from_) + " Hz " + worst +
-        " rises towards 0 Hz as no structure does (noise, or an imaginary part above 0): what integration "
-        "makes of drift; modes found there are none (--band)");
-  }
-
-  void high_end() {
-    double from = 0;
-    std::string name;
-    for (const Channel& channel : channels_) {
-      if (channel.dead) continue;
-      std::size_t first = channel.windows.size();
-      while (first > 0 && channel.windows[first - 1].noise > kNoiseShare) --first;
-      if (first == channel.windows.size() || first == 0) continue;
-      if (from != 0 && channel.windows[first].lo_hz >= from) continue;
-      from = channel.windows[first].lo_hz;
-      name = name_of(*channel.entry);
-    }
-    if (from > 0)
-      say("above " + number(from) + " Hz " + name +
-          " is within 10 dB of its noise: it adds little but time (--band)");
-  }
-
-  // Share of the windows that tell something in which `part` of H / |H| is positive, weighted by it.
-  double positive_share(const Channel& channel, double Window::*part) const {
-    double positive = 0, all = 0;
-    for (const Window& window : channel.windows) {
-      if (window.lo_hz <= usable_from_ || window.noise > kNoiseShare) continue;
-      if (std::abs(window.*part) < kSignificant * window.noise) continue;
-      all += std::abs(window.*part);
-      positive += std::max(window.*part, 0.0);
-    }
-    return all > 0 ? positive / all : 0.0;
-  }
-
-  // The imaginary part is a good part of H in a good part of the windows: no stiffness, or mass, alone.
-  static bool turning(const Channel& channel) {
-    const auto count = std::count_if(channel.windows.begin(), channel.windows.end(),
-                                     [](const Window& window) { return std::abs(window.positive) > 0.5; });
-    return 5 * count > static_cast<std::ptrdiff_t>(channel.windows.size());
-  }
-
-  // Slope of log |H| over log frequency.
-  static double slope_of(const Channel& channel) {
-    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
-    for (const Window& window : channel.windows) {
-      const double u = std::log(window.lo_hz), v = std::log(window.size);
-      n += 1;
-      x += u;
-      y += v;
-      xx += u * u;
-      xy += u * v;
-    }
-    const double spread = n * xx - x * x;
-    return spread > 0 ? (n * xy - x * y) / spread : 0;
-  }
-
-  void signs() {
-    for (const Channel& channel : channels_) {
-      if (!channel.driving_point || channel.dead) continue;
-      const double imaginary = positive_share(channel, &Window::positive);
-      const double real = positive_share(channel, &Window::real);
+void check_signs(const std::vector<Channel>& channels, double usable_from_hz, Findings& findings) {
+  for (const Channel& channel : channels) {
+    if (!channel.driving_point || channel.dead) continue;
+    const double imaginary = positive_share(channel, usable_from_hz, &WindowSummary::imaginary);
+    const double real = positive_share(channel, usable_from_hz, &WindowSummary::real);
+    const bool real_has_one_sign = real > 1 - kOneSign || real < kOneSign;
+    if (imaginary > kSomeSign && imaginary < 1 - kOneSign && real_has_one_sign && turns(channel)) {
+      findings.push_back({.kind = TapFindingKind::kLikeVelocity, .entry = channel.name()});
+    } else if (imaginary > kWrongSign) {
       const double slope = slope_of(channel);
-      const std::string name = name_of(*channel.entry);
-      if (imaginary > 0.2 && imaginary < 0.95 && (real > 0.95 || real < 0.05) && turning(channel)) {
-        say(name +
-            ": its real part has one sign, where a driving point's imaginary part has: is it a velocity "
-            "(--quantity), or was it one already? The modes would not be the tool's");
-      } else if (imaginary > kWrongSign) {
-        say(name + ": a driving point's imaginary part is negative, this is positive on " +
-            percent_text(imaginary) +
-            (slope > 0.5
-                 ? ": is it an acceleration (--quantity)? Else the sign of response or force is swapped"
-             : slope < -2.5
-                 ? ": is it a displacement already (--quantity)? Else the sign of response or force is "
-                   "swapped"
-                 : ": the sign of response or force is swapped, or it is another quantity (--quantity)") +
-            "; the modes would give energy away");
-      }
+      const TapFindingKind kind = slope > kRisingSlope    ? TapFindingKind::kPositiveRising
+                                  : slope < kFallingSlope ? TapFindingKind::kPositiveFalling
+                                                          : TapFindingKind::kPositive;
+      findings.push_back({.kind = kind, .entry = channel.name(), .most = imaginary});
     }
   }
+}
 
-  // By medians over the lines on which both stand 10 dB above their noise.
-  void mirror_images() {
-    std::vector<double> difference, noise;
-    for (const Channel& a : channels_) {
-      for (const Channel& b : channels_) {
-        if (a.dead || b.dead || a.entry->response >= a.entry->reference ||
-            b.entry->response != a.entry->reference || b.entry->reference != a.entry->response)
-          continue;
-        std::vector<double> together;
-        for (Eigen::Index i = 0; i < hz_.size(); ++i) {
-          const Complex of_a = a.entry->h[i], of_b = b.entry->h[i];
-          const double clear = kNoiseShare * std::min(std::abs(of_a), std::abs(of_b));
-          if (hz_[i] <= usable_from_ || clear * clear < std::max(a.variance[i], b.variance[i]) || clear == 0)
-            continue;
-          const double sizes = std::abs(of_a) + std::abs(of_b);
-          together.push_back((std::conj(of_a) * of_b).real() / (std::abs(of_a) * std::abs(of_b)));
-          difference.push_back(std::abs(of_a - of_b) / sizes);
-          noise.push_back(std::sqrt(a.variance[i] + b.variance[i]) / sizes);
-        }
-        if (together.empty() || median(std::move(together)) > -kWrongSign) continue;
-        say(name_of(*a.entry) + " is " + name_of(*b.entry) +
-            " with the other sign: one direction is swapped in one of them (-x in the file or in --entry); "
-            "the modes cannot be reciprocal");
-        return;
-      }
-    }
-    if (difference.empty()) return;
-    const double index = median(std::move(difference)), of_noise = median(std::move(noise));
-    if (index < std::max(kNotReciprocal, 3 * of_noise)) return;
-    say("cross entries differ from their mirror images by " + percent_text(index) +
-        ", noise alone would by " + percent_text(of_noise) +
-        ": not reciprocal, as a controlled robot is, or taps at other places than the sensor's; the modes "
-        "follow what was measured");
-  }
-
-  // Where a channel responds, its coherence should be near 1.
-  void coherence(const dynamics::FrequencyResponseEntry& entry) {
-    if (entry.coherence.size() == 0) return;
-    const Eigen::VectorXd size = entry.h.cwiseAbs();
-    const double typical = median(std::vector<double>(size.begin(), size.end()));
-    std::vector<Eigen::Index> responding, poor;
-    for (Eigen::Index i = 0; i < hz_.size(); ++i) {
-      if (size[i] < 0.3 * typical) continue;
-      responding.push_back(i);
-      if (entry.coherence[i] < kPoorCoherence) poor.push_back(i);
-    }
-    if (poor.size() * 20 < responding.size()) return;
-    std::string text =
-        name_of(entry) + ": coherence below " + number(kPoorCoherence) + " on " +
-        percent_text(static_cast<double>(poor.size()) / static_cast<double>(responding.size())) +
-        " of the lines that respond, from " + number(hz_[poor.front()]) + " to " + number(hz_[poor.back()]) +
-        " Hz";
-    const auto delay = time_between_hits(entry);
-    text += delay ? ", with dips every " + number(1 / *delay) + " Hz, as of a second hit " +
-                        number(1e3 * *delay) + " ms after the first"
-                  : ": noise, a double hit or a changing structure";
-    say(text + (entry.averages ? "; such lines weigh less" : "; with --averages N such lines weigh less"));
-  }
-
-  // Two hits make the force vanish on lines at equal distances: one period holds most of the dips.
-  std::optional<double> time_between_hits(const dynamics::FrequencyResponseEntry& entry) const {
-    constexpr double kMostDips = 200, kLeastDips = 4, kStep = 0.25;
-    const Eigen::Index lines = hz_.size();
-    const Eigen::VectorXd dips = (1 - entry.coherence.array()).matrix();
-    const double mean = dips.mean();
-    const double power = (dips.array() - mean).square().mean();
-    const double band = hz_[lines - 1] - hz_[0];
-    if (!(power > 0) || !(band > 0)) return std::nullopt;
-    double most = 0, delay = 0;
-    for (double count = kLeastDips; count <= std::min(kMostDips, static_cast<double>(lines) / 4);
-         count += kStep) {
-      const Complex turn_s(0, kTwoPi * count / band);
-      Complex sum = 0;
-      for (Eigen::Index i = 0; i < lines; ++i) sum += (dips[i] - mean) * std::exp(turn_s * (hz_[i] - hz_[0]));
-      const double share = 2 * std::norm(sum / static_cast<double>(lines)) / power;
-      if (share <= most) continue;
-      most = share;
-      delay = count / band;
-    }
-    if (most < kOnePeriod) return std::nullopt;
-    return delay;
-  }
-
-  void peak() {
-    double largest = 0;
-    for (const Channel& channel : channels_) {
-      for (Eigen::Index i = 0; i < hz_.size(); ++i) {
-        if (hz_[i] > usable_from_) largest = std::max(largest, std::abs(channel.entry->h[i]));
-      }
-    }
-    if (largest == 0 || (largest <= kLargestPeak && largest >= kSmallestPeak)) return;
-    say("the largest receptance is " + number(largest) + " m/N, a structure as " +
-        (largest > kLargestPeak ? "soft" : "stiff") + " as " + number(1 / largest) +
-        " N/m: is that the unit (--unit, --quantity)? Depths of cut would be wrong by as much");
-  }
-
-  std::vector<Eigen::Index> disturbed() const {
-    std::vector<Eigen::Index> lines;
-    for (const Channel& channel : channels_) {
-      if (channel.dead) continue;
-      const std::vector<Eigen::Index> own = disturbed_lines(hz_, channel.entry->h, channel.variance);
-      lines.insert(lines.end(), own.begin(), own.end());
-    }
-    std::sort(lines.begin(), lines.end());
-    lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
-    return lines;
-  }
-
-  const dynamics::FrequencyResponse& frf_;
-  const Eigen::VectorXd& hz_;
-  const bool zeros_are_dead_;
-  std::vector<Channel> channels_;
-  double usable_from_ = 0;
-  std::vector<std::string> findings_;
+// Two entries H_ij and H_ji on the lines on which both stand 10 dB above their noise.
+struct MirrorComparison {
+  std::vector<double> cosine;      // of the angle between the two
+  std::vector<double> difference;  // |H_ij - H_ji| over |H_ij| + |H_ji|
+  std::vector<double> noise;       // what the noise alone makes of that
 };
+
+void compare_mirrors(const Eigen::VectorXd& hz, const Channel& a, const Channel& b, double usable_from_hz,
+                     MirrorComparison& comparison) {
+  for (Eigen::Index i = 0; i < hz.size(); ++i) {
+    const Complex of_a = a.entry->h[i], of_b = b.entry->h[i];
+    const double clear = kNoiseShare * std::min(std::abs(of_a), std::abs(of_b));
+    if (hz[i] <= usable_from_hz || clear * clear < std::max(a.variance[i], b.variance[i]) || clear == 0)
+      continue;
+    const double sizes = std::abs(of_a) + std::abs(of_b);
+    comparison.cosine.push_back((std::conj(of_a) * of_b).real() / (std::abs(of_a) * std::abs(of_b)));
+    comparison.difference.push_back(std::abs(of_a - of_b) / sizes);
+    comparison.noise.push_back(std::sqrt(a.variance[i] + b.variance[i]) / sizes);
+  }
+}
+
+void check_mirrors(const Eigen::VectorXd& hz, const std::vector<Channel>& channels, double usable_from_hz,
+                   Findings& findings) {
+  MirrorComparison all;
+  for (const Channel& a : channels) {
+    for (const Channel& b : channels) {
+      const bool mirrored =
+          a.entry->response == b.entry->reference && a.entry->reference == b.entry->response;
+      if (!mirrored || a.dead || b.dead || a.entry->response >= a.entry->reference) continue;
+      all.cosine.clear();
+      compare_mirrors(hz, a, b, usable_from_hz, all);
+      if (all.cosine.empty() || median(all.cosine) > -kWrongSign) continue;
+      findings.push_back({.kind = TapFindingKind::kOppositeMirror, .entry = a.name(), .mirror = b.name()});
+      return;
+    }
+  }
+  if (all.difference.empty()) return;
+  const double index = median(std::move(all.difference)), of_noise = median(std::move(all.noise));
+  if (index < std::max(kNotReciprocalShare, kNotReciprocalNoises * of_noise)) return;
+  findings.push_back({.kind = TapFindingKind::kNotReciprocal, .least = of_noise, .most = index});
+}
+
+// Two hits make the force vanish on lines at equal distances: one period holds most of the dips.
+std::optional<double> time_between_hits(const Eigen::VectorXd& hz, const Eigen::VectorXd& coherence) {
+  const Eigen::Index lines = hz.size();
+  const Eigen::VectorXd dips = (1 - coherence.array()).matrix();
+  const double mean = dips.mean();
+  const double power = (dips.array() - mean).square().mean();
+  const double band = hz[lines - 1] - hz[0];
+  if (!(power > 0) || !(band > 0)) return std::nullopt;
+  double most = 0, delay = 0;
+  for (double count = kLeastDips; count <= std::min(kMostDips, static_cast<double>(lines) / kLinesPerDip);
+       count += kDipStep) {
+    const Complex turn_s(0, kTwoPi * count / band);
+    Complex sum = 0;
+    for (Eigen::Index i = 0; i < lines; ++i) sum += (dips[i] - mean) * std::exp(turn_s * (hz[i] - hz[0]));
+    const double share = 2 * std::norm(sum / static_cast<double>(lines)) / power;
+    if (share <= most) continue;
+    most = share;
+    delay = count / band;
+  }
+  return most < kOnePeriod ? std::nullopt : std::optional(delay);
+}
+
+// Where a channel responds, its coherence should be near 1.
+void check_coherence(const Eigen::VectorXd& hz, const dynamics::FrequencyResponseEntry& entry,
+                     Findings& findings) {
+  if (entry.coherence.size() == 0) return;
+  const Eigen::VectorXd size = entry.h.cwiseAbs();
+  const double typical = median(std::vector<double>(size.begin(), size.end()));
+  std::size_t responding = 0;
+  std::vector<Eigen::Index> poor;
+  for (Eigen::Index i = 0; i < hz.size(); ++i) {
+    if (size[i] < kResponding * typical) continue;
+    ++responding;
+    if (entry.coherence[i] < kPoorCoherenceLimit) poor.push_back(i);
+  }
+  if (poor.size() * kPoorLines < responding) return;
+  findings.push_back({.kind = TapFindingKind::kPoorCoherence,
+                      .entry = {entry.response, entry.reference},
+                      .lo_hz = hz[poor.front()],
+                      .hi_hz = hz[poor.back()],
+                      .least = kPoorCoherenceLimit,
+                      .most = static_cast<double>(poor.size()) / static_cast<double>(responding),
+                      .hit_delay_s = time_between_hits(hz, entry.coherence),
+                      .averages_known = entry.averages.has_value()});
+}
+
+void check_peak(const Eigen::VectorXd& hz, const std::vector<Channel>& channels, double usable_from_hz,
+                Findings& findings) {
+  double largest = 0;
+  for (const Channel& channel : channels) {
+    for (Eigen::Index i = 0; i < hz.size(); ++i) {
+      if (hz[i] > usable_from_hz) largest = std::max(largest, std::abs(channel.entry->h[i]));
+    }
+  }
+  if (largest == 0 || (largest <= kLargestPeak && largest >= kSmallestPeak)) return;
+  findings.push_back(
+      {.kind = largest > kLargestPeak ? TapFindingKind::kSoft : TapFindingKind::kStiff, .most = largest});
+}
+
+// Lines that hum or a spur disturbs in any channel; none where they are too many for that.
+std::vector<Eigen::Index> check_disturbed_lines(const Eigen::VectorXd& hz,
+                                                const std::vector<Channel>& channels, Findings& findings) {
+  std::vector<Eigen::Index> lines;
+  for (const Channel& channel : channels) {
+    if (channel.dead) continue;
+    const std::vector<Eigen::Index> own = disturbed_lines(hz, channel.entry->h, channel.variance);
+    lines.insert(lines.end(), own.begin(), own.end());
+  }
+  std::sort(lines.begin(), lines.end());
+  lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
+  const auto few = std::max(kFewLines, static_cast<Eigen::Index>(kFewShare * static_cast<double>(hz.size())));
+  if (lines.empty() || static_cast<Eigen::Index>(lines.size()) > few) return {};
+  TapFinding finding{.kind = TapFindingKind::kDisturbedLines};
+  for (const Eigen::Index line : lines) finding.lines_hz.push_back(hz[line]);
+  findings.push_back(std::move(finding));
+  return lines;
+}
 
 }  // namespace
 
 TapReport check_tap(const dynamics::FrequencyResponse& receptance, bool zeros_are_dead) {
-  if (receptance.frequency_hz.size() < kLeastLines) return {};
-  return TapChecks(receptance, zeros_are_dead).report();
+  const Eigen::VectorXd& hz = receptance.frequency_hz;
+  TapReport report;
+  if (hz.size() < kLeastTapLines) return report;
+  const std::vector<Channel> channels = channels_of(receptance);
+  check_spacing(hz, report.findings);
+  check_dead_channels(receptance, channels, zeros_are_dead, report.findings);
+  const double usable_from_hz = check_low_end(channels, hz[hz.size() - 1], report.findings);
+  check_high_end(channels, report.findings);
+  check_signs(channels, usable_from_hz, report.findings);
+  check_mirrors(hz, channels, usable_from_hz, report.findings);
+  for (const auto& entry : receptance.entries) check_coherence(hz, entry, report.findings);
+  check_peak(hz, channels, usable_from_hz, report.findings);
+  report.disturbed_lines = check_disturbed_lines(hz, channels, report.findings);
+  return report;
 }
 
 }  // namespace stablecut::modal

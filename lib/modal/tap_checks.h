@@ -1,27 +1,60 @@
 // What a measurement shows about itself before anything is fitted: lines, channels and signs that cannot be
-// right, and what they do to the modes.
+// right, and lines that would be taken for modes ([Ewins2000]; README.md, "Tap checks").
 #pragma once
 
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "dynamics/frequency_response.h"
+#include "modal/entry_name.h"
 
 namespace stablecut::modal {
 
+/// Which fields of a TapFinding a kind sets stands behind it.
+enum class TapFindingKind {
+  kUnevenLines,      ///< the lines are unevenly spaced; `least` and `most`: their distances, Hz
+  kZeroEntry,        ///< `entry` is 0 on every line, where that means a dead channel
+  kConstantEntry,    ///< `entry` has the same value on every line
+  kNothingButNoise,  ///< `entry` is noise in most windows
+  kDrift,            ///< below `hi_hz` `entry` rises towards 0 Hz as no structure does
+  kNoiseAtHighEnd,   ///< above `lo_hz` `entry` is within 10 dB of its noise
+  kLikeVelocity,     ///< `entry`, a driving point: its real part has the sign that its imaginary part should
+                     ///< have
+  /// The imaginary part of `entry`, a driving point, is positive on the share `most` of what counts, and ...
+  kPositiveRising,   ///< ... |H| rises with frequency, as an accelerance
+  kPositiveFalling,  ///< ... |H| falls more steeply than a receptance does
+  kPositive,         ///< ... nothing else is conspicuous
+  kOppositeMirror,   ///< `entry` is `mirror` with the other sign
+  kNotReciprocal,    ///< the cross entries differ from their mirrors by the share `most`, noise alone by
+                     ///< `least`
+  /// The coherence of `entry` is below `least` on the share `most` of the lines that respond, from `lo_hz` to
+  /// `hi_hz`; `hit_delay_s` where its dips tell; `averages_known`
+  kPoorCoherence,
+  kSoft,            ///< the largest receptance, `most` m/N, is more than a structure has
+  kStiff,           ///< the same, less
+  kDisturbedLines,  ///< `lines_hz` stand out of their neighbours, and are few enough to be left out
+};
+
+struct TapFinding {
+  TapFindingKind kind;
+  EntryName entry{}, mirror{};
+  double lo_hz = 0, hi_hz = 0;
+  double least = 0, most = 0;
+  std::optional<double> hit_delay_s{};  ///< between two hits of one tap
+  bool averages_known = false;          ///< so that lines of poor coherence already weigh less
+  std::vector<double> lines_hz{};
+};
+
 struct TapReport {
-  /// In words, one each: uneven lines; a band at either end where integration or noise has ruined the data;
-  /// dead channels; a driving point whose imaginary part has the wrong sign (a swapped direction, another
-  /// quantity), for Im H_ii <= 0 where a structure only takes energy; H_ij = -H_ji, or far from H_ji; poor
-  /// coherence, with the time between two hits where its dips tell; a peak that is none of m/N.
-  std::vector<std::string> findings;
-  /// Lines on which an entry's single value stands out of its neighbours, as mains hum does: of a cubic
-  /// through four of them, and of a resonance that eight of them could show. Indices, increasing.
+  std::vector<TapFinding> findings;
+  /// Single lines (indices, increasing) on which a value stands out of its neighbours in some entry, as mains
+  /// hum makes it: each would become a mode without width, so a fit should leave them out. Empty where there
+  /// are so many that something else is behind them.
   std::vector<Eigen::Index> disturbed_lines;
 };
 
 /// Looks at a receptance (m/N) with lines above 0 Hz. An entry of exact zeros is a dead channel where
-/// `zeros_are_dead`, else uncoupled. Nothing is said of fewer than 20 lines.
+/// `zeros_are_dead`, else uncoupled. Nothing is found on fewer than 20 lines.
 TapReport check_tap(const dynamics::FrequencyResponse& receptance, bool zeros_are_dead);
 
 }  // namespace stablecut::modal

@@ -41,22 +41,27 @@ dynamics::FrequencyResponse tap(const Eigen::VectorXd& lines) {
 
 Eigen::VectorXd usual_lines() { return Eigen::VectorXd::LinSpaced(1991, 5, 1000); }
 
-std::vector<std::string> findings_on(const dynamics::FrequencyResponse& frf, bool zeros_are_dead) {
-  return check_tap(frf, zeros_are_dead).findings;
+using Kinds = std::vector<TapFindingKind>;
+
+Kinds kinds_on(const dynamics::FrequencyResponse& frf, bool zeros_are_dead = true) {
+  Kinds kinds;
+  for (const TapFinding& finding : check_tap(frf, zeros_are_dead).findings) kinds.push_back(finding.kind);
+  return kinds;
 }
 
 std::vector<Eigen::Index> disturbed_on(const dynamics::FrequencyResponse& frf) {
   return check_tap(frf, true).disturbed_lines;
 }
 
-// How many findings hold the text.
-std::ptrdiff_t count(const dynamics::FrequencyResponse& frf, const std::string& text,
-                     bool zeros_are_dead = true) {
-  const auto findings = findings_on(frf, zeros_are_dead);
-  for (const auto& finding : findings) UNSCOPED_INFO(finding);
-  return std::count_if(findings.begin(), findings.end(),
-                       [&](const std::string& finding) { return finding.find(text) != std::string::npos; });
+// The one finding of that kind.
+TapFinding the(TapFindingKind kind, const dynamics::FrequencyResponse& frf) {
+  const std::vector<TapFinding> findings = check_tap(frf, true).findings;
+  const auto is_it = [&](const TapFinding& finding) { return finding.kind == kind; };
+  REQUIRE(std::count_if(findings.begin(), findings.end(), is_it) == 1);
+  return *std::find_if(findings.begin(), findings.end(), is_it);
 }
+
+const EntryName kXx{"x", "x"}, kXy{"x", "y"}, kYx{"y", "x"};
 
 template <typename Change>
 dynamics::FrequencyResponse changed(std::size_t entry, const Change& change) {
@@ -69,26 +74,40 @@ dynamics::FrequencyResponse changed(std::size_t entry, const Change& change) {
 }  // namespace
 
 TEST_CASE("a sound tap has no findings") {
-  CHECK(findings_on(tap(usual_lines()), true).empty());
+  CHECK(kinds_on(tap(usual_lines())).empty());
   CHECK(disturbed_on(tap(usual_lines())).empty());
   // Nor a suspended one, whose mass line rises towards 0 Hz, real and negative.
   dynamics::FrequencyResponse free = tap(usual_lines());
   for (Eigen::Index i = 0; i < free.frequency_hz.size(); ++i)
     free.entries[0].h[i] -= 1 / (40 * std::pow(kTwoPi * free.frequency_hz[i], 2));
-  CHECK(findings_on(free, true).empty());
+  CHECK(kinds_on(free).empty());
+  // Nor what has too few lines to say anything of it.
+  dynamics::FrequencyResponse few = dynamics::within_band(tap(usual_lines()), 100, 109);
+  few.entries[0].h *= -1;
+  REQUIRE(few.frequency_hz.size() == 19);
+  CHECK(kinds_on(few).empty());
 }
 
 TEST_CASE("lines that are not equally spaced") {
   const Eigen::VectorXd uneven = Eigen::VectorXd::LinSpaced(2000, std::log(10), std::log(1000)).array().exp();
-  CHECK(count(tap(uneven), "Hz apart") == 1);
-  CHECK(findings_on(tap(uneven), true).size() == 1);
+  const dynamics::FrequencyResponse frf = tap(uneven);
+  CHECK(kinds_on(frf) == Kinds{TapFindingKind::kUnevenLines});
+  const TapFinding finding = the(TapFindingKind::kUnevenLines, frf);
+  CHECK(finding.least == Approx(uneven[1] - uneven[0]));
+  CHECK(finding.most == Approx(uneven[1999] - uneven[1998]));
+  // Rounded frequencies are even: lines 0.53 Hz apart, printed as multiples of 0.2 Hz.
+  const Eigen::VectorXd rounded = (Eigen::VectorXd::LinSpaced(1991, 5, 1059.7).array() * 5).round() / 5;
+  CHECK(kinds_on(tap(rounded)).empty());
 }
 
 TEST_CASE("drift that integration made at the low end, and noise at the high end") {
-  // 1 / omega^3 with the phase of a drift.
+  // 1 / omega^3 with the phase of a drift: as large as the tip's stiffness line at 60 Hz.
   const auto drift =
       changed(0, [](Complex h, double omega) { return h + Complex(-0.3, 1) * 2.0 / std::pow(omega, 3); });
-  CHECK(count(drift, "Hz Hxx rises towards 0 Hz as no structure does") == 1);
+  const TapFinding low = the(TapFindingKind::kDrift, drift);
+  CHECK(low.entry == kXx);
+  CHECK(low.hi_hz > 60);
+  CHECK(low.hi_hz < 150);
   // Noise of the acceleration.
   dynamics::FrequencyResponse noise = tap(usual_lines());
   std::mt19937_64 generator(5);
@@ -97,70 +116,100 @@ TEST_CASE("drift that integration made at the low end, and noise at the high end
     for (Eigen::Index i = 0; i < noise.frequency_hz.size(); ++i)
       noise.entries[entry].h[i] +=
           0.05 * numerics::unit_complex_normal(generator) / std::pow(kTwoPi * noise.frequency_hz[i], 2);
-    CHECK(count(noise, "rises towards 0 Hz") == (entry == 0 ? 1 : 0));
+    const Kinds kinds = kinds_on(noise);
+    CHECK(std::count(kinds.begin(), kinds.end(), TapFindingKind::kDrift) == (entry == 0 ? 1 : 0));
   }
   dynamics::FrequencyResponse high = tap(usual_lines());
   for (Eigen::Index i = 1600; i < high.frequency_hz.size(); ++i)
     high.entries[0].h[i] *= 1.0 + numerics::unit_complex_normal(generator);
-  CHECK(count(high, "within 10 dB of its noise") == 1);
+  const TapFinding end = the(TapFindingKind::kNoiseAtHighEnd, high);
+  CHECK(end.entry == kXx);
+  // From line 1600 on, to within a window.
+  CHECK(end.lo_hz == Approx(high.frequency_hz[1600]).epsilon(0.13));
 }
 
 TEST_CASE("dead channels") {
   std::mt19937_64 generator(5);
-  CHECK(count(changed(1, [&](Complex, double) { return 1e-9 * numerics::unit_complex_normal(generator); }),
-              "Hxy: nothing but noise") == 1);
-  CHECK(count(changed(1, [&](Complex, double) { return Complex(1e-9, 0); }),
-              "Hxy: the same value on every line") == 1);
+  const auto noise =
+      changed(1, [&](Complex, double) { return 1e-9 * numerics::unit_complex_normal(generator); });
+  CHECK(the(TapFindingKind::kNothingButNoise, noise).entry == kXy);
+  const auto constant = changed(1, [&](Complex, double) { return Complex(1e-9, 0); });
+  CHECK(the(TapFindingKind::kConstantEntry, constant).entry == kXy);
   const auto zero = changed(1, [&](Complex, double) { return Complex(0, 0); });
-  CHECK(count(zero, "Hxy: all lines are 0") == 1);
-  CHECK(findings_on(zero, false).empty());
+  CHECK(the(TapFindingKind::kZeroEntry, zero).entry == kXy);
+  CHECK(kinds_on(zero, false).empty());
 }
 
 TEST_CASE("signs and quantities that a driving point cannot have") {
-  CHECK(count(changed(0, [](Complex h, double) { return -h; }),
-              "Hxx: a driving point's imaginary part is negative") == 1);
-  CHECK(count(changed(0, [](Complex h, double) { return -h; }), "is swapped") == 1);
-  CHECK(count(changed(0, [](Complex h, double w) { return -w * w * h; }),
-              "Hxx: a driving point's imaginary part is negative, this is positive on 100 %: is it an "
-              "acceleration") == 1);
-  CHECK(count(changed(0, [](Complex h, double w) { return -h / (w * w); }), "is it a displacement already") ==
-        1);
-  CHECK(count(changed(0, [](Complex h, double w) { return Complex(0, w) * h; }), "is it a velocity") == 1);
-  CHECK(count(changed(1, [](Complex h, double) { return -h; }), "Hxy is Hyx with the other sign") == 1);
+  const auto swapped = changed(0, [](Complex h, double) { return -h; });
+  CHECK(the(TapFindingKind::kPositive, swapped).entry == kXx);
+  CHECK(the(TapFindingKind::kPositive, swapped).most == Approx(1).margin(0.01));
+  const auto acceleration = changed(0, [](Complex h, double w) { return -w * w * h; });
+  CHECK(the(TapFindingKind::kPositiveRising, acceleration).entry == kXx);
+  const auto twice_integrated = changed(0, [](Complex h, double w) { return -h / (w * w); });
+  CHECK(the(TapFindingKind::kPositiveFalling, twice_integrated).entry == kXx);
+  const auto velocity = changed(0, [](Complex h, double w) { return Complex(0, w) * h; });
+  CHECK(the(TapFindingKind::kLikeVelocity, velocity).entry == kXx);
+  const auto opposite = changed(1, [](Complex h, double) { return -h; });
+  CHECK(the(TapFindingKind::kOppositeMirror, opposite).entry == kXy);
+  CHECK(the(TapFindingKind::kOppositeMirror, opposite).mirror == kYx);
   // A cross entry of either sign is sound.
   dynamics::FrequencyResponse both = tap(usual_lines());
   both.entries[1].h *= -1;
   both.entries[2].h *= -1;
-  CHECK(findings_on(both, true).empty());
+  CHECK(kinds_on(both).empty());
+}
+
+TEST_CASE("cross entries that are no mirror images") {
+  // |1.5 h - h| / |2.5 h| = 0.2; noise of 1 % in each makes sqrt(1.5^2 + 1) / 2.5 % of it.
+  const TapFinding finding =
+      the(TapFindingKind::kNotReciprocal, changed(1, [](Complex h, double) { return 1.5 * h; }));
+  CHECK(finding.most == Approx(0.2).epsilon(0.02));
+  CHECK(finding.least == Approx(0.01 * std::sqrt(3.25) / 2.5).epsilon(0.2));
 }
 
 TEST_CASE("a unit that is none of m/N") {
-  CHECK(count(changed(0, [](Complex h, double) { return 1e6 * h; }), "the largest receptance is") == 1);
+  const auto soft = changed(0, [](Complex h, double) { return 1e6 * h; });
+  CHECK(the(TapFindingKind::kSoft, soft).most == Approx(soft.entries[0].h.cwiseAbs().maxCoeff()));
   dynamics::FrequencyResponse stiff = tap(usual_lines());
-  for (auto& entry : stiff.entries) entry.h *= 1e-9;
-  CHECK(count(stiff, "as stiff as") == 1);
+  double largest = 0;
+  for (auto& entry : stiff.entries) {
+    entry.h *= 1e-9;
+    largest = std::max(largest, entry.h.cwiseAbs().maxCoeff());
+  }
+  CHECK(the(TapFindingKind::kStiff, stiff).most == Approx(largest));
 }
 
 TEST_CASE("poor coherence, and the time between two hits") {
   dynamics::FrequencyResponse frf = tap(usual_lines());
   frf.entries[0].coherence = Eigen::VectorXd::Constant(frf.frequency_hz.size(), 0.99);
-  CHECK(findings_on(frf, true).empty());
+  CHECK(kinds_on(frf).empty());
   // A second hit of 90 % after 12 ms: the force nearly vanishes every 83 Hz.
   for (Eigen::Index i = 0; i < frf.frequency_hz.size(); ++i) {
     const double force = std::norm(1.0 + 0.9 * std::polar(1.0, -kTwoPi * frf.frequency_hz[i] * 0.012));
     frf.entries[0].coherence[i] = force / (force + 0.2);
   }
-  CHECK(count(frf, "Hxx: coherence below 0.8 on ") == 1);
-  CHECK(count(frf, "as of a second hit 12") == 1);
-  CHECK(count(frf, "with --averages N such lines weigh less") == 1);
+  TapFinding finding = the(TapFindingKind::kPoorCoherence, frf);
+  CHECK(finding.entry == kXx);
+  REQUIRE(finding.hit_delay_s);
+  CHECK(*finding.hit_delay_s == Approx(0.012).epsilon(0.02));
+  CHECK_FALSE(finding.averages_known);
+  CHECK(finding.lo_hz >= 5);
+  CHECK(finding.lo_hz < finding.hi_hz);
+  // The same coherence everywhere is nobody's second hit.
   frf.entries[0].coherence.setConstant(0.5);
-  CHECK(count(frf, "noise, a double hit or a changing structure") == 1);
+  frf.entries[0].averages = 4;
+  finding = the(TapFindingKind::kPoorCoherence, frf);
+  CHECK(finding.most == 1);
+  CHECK_FALSE(finding.hit_delay_s);
+  CHECK(finding.averages_known);
 }
 
 TEST_CASE("single disturbed lines are found, resonances are not") {
   dynamics::FrequencyResponse frf = tap(usual_lines());
   for (const Eigen::Index line : {90, 290, 490}) frf.entries[1].h[line] += Complex(3e-6, -5e-6);
   CHECK(disturbed_on(frf) == std::vector<Eigen::Index>{90, 290, 490});
+  CHECK(the(TapFindingKind::kDisturbedLines, frf).lines_hz == std::vector<double>{50, 150, 250});
   // A mode of half the width of the spacing between lines, and one of a tenth, without noise and with.
   for (const double share : {0.5, 0.1}) {
     dynamics::ModalModel sharp = tip();
@@ -174,4 +223,14 @@ TEST_CASE("single disturbed lines are found, resonances are not") {
   // Left out, they make no modes.
   const ModalFit fit = fit_modes(dynamics::without_lines(frf, disturbed_on(frf)));
   CHECK(fit.model.modes.size() == 3);
+}
+
+TEST_CASE("more disturbed lines than a few are something else, and stay") {
+  // Two in a hundred of 1991 lines are 39.
+  for (const Eigen::Index count : {39, 40}) {
+    dynamics::FrequencyResponse frf = tap(usual_lines());
+    for (Eigen::Index i = 0; i < count; ++i) frf.entries[1].h[400 + 30 * i] += Complex(3e-5, -5e-5);
+    CHECK(disturbed_on(frf).size() == (count == 39 ? 39u : 0u));
+    CHECK(kinds_on(frf) == (count == 39 ? Kinds{TapFindingKind::kDisturbedLines} : Kinds{}));
+  }
 }

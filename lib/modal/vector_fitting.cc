@@ -13,13 +13,21 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kRidge = 1e-12;          // of each diagonal entry of a Gram matrix
-constexpr double kStartDamping = 0.01;    // of starting poles
-constexpr double kRealPoleDamping = 0.7;  // what a real pole becomes
+constexpr double kGramRidge = 1e-12;       // added to each diagonal entry of a Gram matrix, as a share of it
+constexpr double kLeastDiagonal = 1e-300;  // of a Gram matrix, in a quotient
+constexpr double kStartDamping = 0.01;     // -Re / Im of starting poles
+constexpr double kLowestStart = 1e-3;      // of the highest line, where the lowest is near 0
+constexpr double kStartBelow = 2, kStartAbove = 1.5;  // factors to the pole below the band, and above it
+constexpr double kStartGap = 1e-3;                    // between two starting poles at least, relative
+constexpr double kFirstStart = 1e-4;                  // of the highest line, instead of 0 or less
+constexpr double kNoiseTurn = 2;          // deviations of the noise by which curves may turn for nothing
+constexpr double kRealPoleDamping = 0.7;  // damping ratio of the pair that two real poles become
+constexpr double kLeastDecay = 1e-6;      // -Re of a relocated pole at least, of the highest line
+constexpr double kVanishing = 1e-12;  // of sigma's largest coefficient, below which its constant counts as 0
 
-// Real basis of a conjugate pair: column 2k is phi + phi', column 2k + 1 is i phi - i phi', so that the
-// coefficients are the real and imaginary part of the residue. Functions of the weights c (complex allowed):
-// sum c conj(x) y.
+// The real basis x of a conjugate pair: x_2k = phi + phi', x_2k+1 = i phi - i phi', so that the coefficients
+// are the real and the imaginary part of the residue. From sums over the lines, sum c conj(phi_a) phi_b with
+// c the (complex) weights, those of the real basis: sum c conj(x_a) x_b.
 Eigen::MatrixXd real_gram(const Eigen::MatrixXcd& complex_gram) {
   const Eigen::Index n = complex_gram.rows() / 2;  // [phi; phi'] blocks
   Eigen::MatrixXd gram(2 * n, 2 * n);
@@ -37,7 +45,7 @@ Eigen::MatrixXd real_gram(const Eigen::MatrixXcd& complex_gram) {
   return gram;
 }
 
-// sum c conj(x_a), from the sums with the conjugate of c.
+// sum c conj(x_a), from the sums of phi with the conjugate of c.
 Eigen::VectorXd real_projection(const Eigen::VectorXcd& sum_of_conjugate) {
   const Eigen::Index n = sum_of_conjugate.size() / 2;
   Eigen::VectorXd result(2 * n);
@@ -48,8 +56,8 @@ Eigen::VectorXd real_projection(const Eigen::VectorXcd& sum_of_conjugate) {
   return result;
 }
 
-// sum c conj(phi_a) phi_b over poles and conjugate poles, by partial fractions: -(S_c(b) + conj S_cbar(a)) /
-// (b + conj a), from the sums with c and with its conjugate.
+// sum c conj(phi_a) phi_b over poles and conjugate poles, by partial fractions (pole_sums.h): -(S_c(b) + conj
+// S_c'(a)) / (b + conj a), from the sums S_c of phi with c and S_c' with its conjugate.
 Eigen::MatrixXcd weighted_gram(const Eigen::VectorXcd& poles, const Eigen::VectorXcd& sum,
                                const Eigen::VectorXcd& sum_of_conjugate) {
   const Eigen::Index n = poles.size();
@@ -67,9 +75,9 @@ Eigen::MatrixXcd weighted_gram(const Eigen::VectorXcd& poles, const Eigen::Vecto
 // Symmetric positive system, scaled to a unit diagonal, with a small ridge.
 struct ScaledSystem {
   explicit ScaledSystem(const Eigen::MatrixXd& matrix) {
-    scale = matrix.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    scale = matrix.diagonal().cwiseMax(kLeastDiagonal).cwiseSqrt().cwiseInverse();
     Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
-    scaled.diagonal().array() += kRidge;
+    scaled.diagonal().array() += kGramRidge;
     factor.compute(scaled);
   }
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const {
@@ -79,12 +87,8 @@ struct ScaledSystem {
   Eigen::LDLT<Eigen::MatrixXd> factor;
 };
 
-}  // namespace
-
-Eigen::VectorXcd starting_poles(const FitData& data, Eigen::Index pairs) {
-  const double lo = std::max(data.s[0].imag(), 1e-3 * data.s[data.lines() - 1].imag());
-  const double hi = data.s[data.lines() - 1].imag();
-  // How far the curves turn from line to line, beyond what noise turns them.
+// How far the curves have turned from the first line to each, beyond what noise turns them: [lines].
+Eigen::VectorXd turned_so_far(const FitData& data) {
   Eigen::VectorXd turned = Eigen::VectorXd::Zero(data.lines());
   for (Eigen::Index i = 1; i < data.lines(); ++i) {
     double turn = 0;
@@ -92,49 +96,25 @@ Eigen::VectorXcd starting_poles(const FitData& data, Eigen::Index pairs) {
       const double size = std::abs(curve.h[i]) + std::abs(curve.h[i - 1]);
       if (size == 0) continue;
       const double noise = std::sqrt(1 / curve.weight[i] + 1 / curve.weight[i - 1]);
-      turn += std::max(0.0, std::abs(curve.h[i] - curve.h[i - 1]) - 2 * noise) / size;
+      turn += std::max(0.0, std::abs(curve.h[i] - curve.h[i - 1]) - kNoiseTurn * noise) / size;
     }
     turned[i] = turned[i - 1] + turn;
   }
-  const Eigen::Index third = std::max<Eigen::Index>(pairs / 3, 1);
-  std::vector<double> frequency;
-  for (Eigen::Index k = 0; k < third; ++k) {
-    const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(third);
-    frequency.push_back(lo * std::pow(hi / lo, share));
-    frequency.push_back(lo + (hi - lo) * share);
-  }
-  for (Eigen::Index k = 0; static_cast<Eigen::Index>(frequency.size()) < pairs; ++k) {
-    const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(pairs - 2 * third);
-    const auto line = std::lower_bound(turned.begin(), turned.end(), share * turned[data.lines() - 1]);
-    frequency.push_back(data.s[std::min<Eigen::Index>(line - turned.begin(), data.lines() - 1)].imag());
-  }
-  // And one on either side of the band.
-  frequency.push_back(lo / 2);
-  frequency.push_back(hi * 1.5);
-  std::sort(frequency.begin(), frequency.end());
-  Eigen::VectorXcd poles(frequency.size());
-  double last = 0;
-  for (Eigen::Index k = 0; k < poles.size(); ++k) {
-    // No two alike: a repeated pole makes the basis singular.
-    double omega = std::max(frequency[k], last * (1 + 1e-3));
-    if (omega <= 0) omega = hi * 1e-4;
-    poles[k] = Complex(-kStartDamping * omega, omega);
-    last = omega;
-  }
-  return poles;
+  return turned;
 }
 
-Eigen::VectorXcd relocate_poles(const FitData& data, const Eigen::VectorXcd& poles) {
+// The least squares sum w |sum r x - h sigma|^2 over the residues r of each curve and the common sigma = d +
+// sum c x. The residues are eliminated, curve by curve (Schur complement) [Deschrijver2008]; what is left, a
+// quadratic form in (c, d), adds up over the curves.
+Eigen::MatrixXd reduced_form(const FitData& data, const Eigen::VectorXcd& poles) {
   const Eigen::Index n = poles.size();
-  // For each curve: residues r and common sigma = 1 d + sum c x: minimise sum w |sum r x - h sigma|^2. The
-  // residues are eliminated (Schur complement); what is left adds up over the curves, in (c, d).
   Eigen::MatrixXd reduced = Eigen::MatrixXd::Zero(2 * n + 1, 2 * n + 1);
   for (const Curve& curve : data.curves) {
-    const auto sums = curve_sums(data.s, poles, curve.weight, curve.h);
+    const auto sums = data_pole_sums(data.s, poles, curve.weight, curve.h);
     const Eigen::VectorXcd of_w = sums.col(0), of_wh = sums.col(1), of_conjugate = sums.col(2),
                            of_whh = sums.col(3);
     const Eigen::MatrixXd gram = real_gram(weighted_gram(poles, of_w, of_w));
-    Eigen::MatrixXd cross(2 * n, 2 * n + 1);  // sum w conj(x_a) h x_b, and with 1
+    Eigen::MatrixXd cross(2 * n, 2 * n + 1);  // sum w conj(x_a) h x_b, and with 1 for x_b
     cross.leftCols(2 * n) = real_gram(weighted_gram(poles, of_wh, of_conjugate));
     cross.col(2 * n) = real_projection(of_conjugate);
     Eigen::MatrixXd own(2 * n + 1, 2 * n + 1);  // sum w |h|^2 conj(x_a) x_b
@@ -145,48 +125,101 @@ Eigen::VectorXcd relocate_poles(const FitData& data, const Eigen::VectorXcd& pol
     const Eigen::MatrixXd complement = own - cross.transpose() * ScaledSystem(gram).solve(cross);
     reduced += (complement + complement.transpose()) / 2;
   }
-  // Relaxed non-triviality: the mean of Re sigma over the lines is 1.
-  Eigen::VectorXd mean(2 * n + 1);
-  const Eigen::VectorXcd of_one =
-      curve_sums(data.s, poles,
-                 Eigen::VectorXd::Constant(data.lines(), 1.0 / static_cast<double>(data.lines())),
-                 Eigen::VectorXcd::Zero(data.lines()))
+  return reduced;
+}
+
+// The mean of Re sigma over the lines as a linear function of (c, d).
+Eigen::VectorXd mean_of_sigma(const FitData& data, const Eigen::VectorXcd& poles) {
+  const Eigen::Index n = poles.size();
+  const Eigen::VectorXcd sums =
+      data_pole_sums(data.s, poles,
+                     Eigen::VectorXd::Constant(data.lines(), 1.0 / static_cast<double>(data.lines())),
+                     Eigen::VectorXcd::Zero(data.lines()))
           .col(0);
+  Eigen::VectorXd mean(2 * n + 1);
   for (Eigen::Index k = 0; k < n; ++k) {
-    mean[2 * k] = (of_one[k] + of_one[n + k]).real();
-    mean[2 * k + 1] = (of_one[n + k] - of_one[k]).imag();
+    mean[2 * k] = (sums[k] + sums[n + k]).real();
+    mean[2 * k + 1] = (sums[n + k] - sums[k]).imag();
   }
   mean[2 * n] = 1;
-  Eigen::VectorXd sigma = ScaledSystem(reduced).solve(mean);
-  const double d = sigma[2 * n];
-  if (std::abs(d) < 1e-12 * sigma.cwiseAbs().maxCoeff() || !sigma.allFinite()) return poles;
-  sigma /= d;
+  return mean;
+}
 
-  // Zeros of sigma: eigenvalues of A - b c^T in the real form of each pair.
-  Eigen::MatrixXd zeros = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+// Zeros of 1 + sum c x: eigenvalues of A - b c^T in the real form of each pair.
+Eigen::VectorXcd zeros_of_sigma(const Eigen::VectorXcd& poles, const Eigen::VectorXd& c) {
+  const Eigen::Index n = poles.size();
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(2 * n, 2 * n);
   for (Eigen::Index k = 0; k < n; ++k) {
-    zeros(2 * k, 2 * k) = zeros(2 * k + 1, 2 * k + 1) = poles[k].real();
-    zeros(2 * k, 2 * k + 1) = poles[k].imag();
-    zeros(2 * k + 1, 2 * k) = -poles[k].imag();
-    zeros.row(2 * k) -= 2 * sigma.head(2 * n).transpose();
+    matrix(2 * k, 2 * k) = matrix(2 * k + 1, 2 * k + 1) = poles[k].real();
+    matrix(2 * k, 2 * k + 1) = poles[k].imag();
+    matrix(2 * k + 1, 2 * k) = -poles[k].imag();
+    matrix.row(2 * k) -= 2 * c.transpose();
   }
-  const Eigen::VectorXcd roots = Eigen::EigenSolver<Eigen::MatrixXd>(zeros, false).eigenvalues();
-  std::vector<Complex> result;
-  std::vector<double> real_roots;
-  for (const Complex& root : roots) {
-    if (root.imag() > 0) result.emplace_back(-std::abs(root.real()), root.imag());
-    if (root.imag() == 0) real_roots.push_back(std::abs(root.real()));
+  return Eigen::EigenSolver<Eigen::MatrixXd>(matrix, false).eigenvalues();
+}
+
+// One pole with positive imaginary part for each pair of zeros: unstable ones mirrored, two real ones made
+// one pair.
+std::vector<Complex> pairs_of(const Eigen::VectorXcd& zeros, double least_decay) {
+  std::vector<Complex> pairs;
+  std::vector<double> real_zeros;
+  for (const Complex& zero : zeros) {
+    if (zero.imag() > 0) pairs.emplace_back(-std::abs(zero.real()), zero.imag());
+    if (zero.imag() == 0) real_zeros.push_back(std::abs(zero.real()));
   }
-  std::sort(real_roots.begin(), real_roots.end());
-  for (std::size_t i = 0; i + 1 < real_roots.size(); i += 2) {
-    const double omega =
-        std::max(std::sqrt(real_roots[i] * real_roots[i + 1]), 1e-6 * std::abs(data.s[data.lines() - 1]));
-    result.push_back(omega * Complex(-kRealPoleDamping, std::sqrt(1 - kRealPoleDamping * kRealPoleDamping)));
+  std::sort(real_zeros.begin(), real_zeros.end());
+  for (std::size_t i = 0; i + 1 < real_zeros.size(); i += 2) {
+    const double omega = std::max(std::sqrt(real_zeros[i] * real_zeros[i + 1]), least_decay);
+    pairs.push_back(omega * Complex(-kRealPoleDamping, std::sqrt(1 - kRealPoleDamping * kRealPoleDamping)));
   }
-  const double least_decay = 1e-6 * std::abs(data.s[data.lines() - 1]);
-  for (Complex& pole : result) pole = {std::min(pole.real(), -least_decay), pole.imag()};
-  std::sort(result.begin(), result.end(), [](Complex a, Complex b) { return std::abs(a) < std::abs(b); });
-  return Eigen::Map<Eigen::VectorXcd>(result.data(), result.size());
+  for (Complex& pole : pairs) pole = {std::min(pole.real(), -least_decay), pole.imag()};
+  std::sort(pairs.begin(), pairs.end(), [](Complex a, Complex b) { return std::abs(a) < std::abs(b); });
+  return pairs;
+}
+
+}  // namespace
+
+Eigen::VectorXcd starting_poles(const FitData& data, Eigen::Index pairs) {
+  const double hi = data.highest();
+  const double lo = std::max(data.lowest(), kLowestStart * hi);
+  const Eigen::Index third = std::max<Eigen::Index>(pairs / 3, 1);
+  std::vector<double> frequency;
+  for (Eigen::Index k = 0; k < third; ++k) {
+    const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(third);
+    frequency.push_back(lo * std::pow(hi / lo, share));
+    frequency.push_back(lo + (hi - lo) * share);
+  }
+  const Eigen::VectorXd turned = turned_so_far(data);
+  for (Eigen::Index k = 0; static_cast<Eigen::Index>(frequency.size()) < pairs; ++k) {
+    const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(pairs - 2 * third);
+    const auto line = std::lower_bound(turned.begin(), turned.end(), share * turned[data.lines() - 1]);
+    frequency.push_back(data.s[std::min<Eigen::Index>(line - turned.begin(), data.lines() - 1)].imag());
+  }
+  frequency.push_back(lo / kStartBelow);
+  frequency.push_back(hi * kStartAbove);
+  std::sort(frequency.begin(), frequency.end());
+  Eigen::VectorXcd poles(frequency.size());
+  double last = 0;
+  for (Eigen::Index k = 0; k < poles.size(); ++k) {
+    // No two alike: a repeated pole makes the basis singular.
+    double omega = std::max(frequency[k], last * (1 + kStartGap));
+    if (omega <= 0) omega = hi * kFirstStart;
+    poles[k] = Complex(-kStartDamping * omega, omega);
+    last = omega;
+  }
+  return poles;
+}
+
+Eigen::VectorXcd relocate_poles(const FitData& data, const Eigen::VectorXcd& poles) {
+  const Eigen::Index n = poles.size();
+  // Relaxed non-triviality [Gustavsen2006]: the mean of Re sigma over the lines is 1.
+  Eigen::VectorXd sigma = ScaledSystem(reduced_form(data, poles)).solve(mean_of_sigma(data, poles));
+  const double d = sigma[2 * n];
+  if (std::abs(d) < kVanishing * sigma.cwiseAbs().maxCoeff() || !sigma.allFinite()) return poles;
+  sigma /= d;
+  std::vector<Complex> pairs =
+      pairs_of(zeros_of_sigma(poles, sigma.head(2 * n)), kLeastDecay * data.highest());
+  return Eigen::Map<Eigen::VectorXcd>(pairs.data(), pairs.size());
 }
 
 LinearResidues linear_residues(const FitData& data, const Eigen::VectorXcd& poles) {
@@ -197,7 +230,7 @@ LinearResidues linear_residues(const FitData& data, const Eigen::VectorXcd& pole
   result.removal_loss = Eigen::VectorXd::Zero(n);
   for (std::size_t e = 0; e < data.curves.size(); ++e) {
     const Curve& curve = data.curves[e];
-    const auto sums = curve_sums(data.s, poles, curve.weight, curve.h);
+    const auto sums = data_pole_sums(data.s, poles, curve.weight, curve.h);
     const ScaledSystem system(real_gram(weighted_gram(poles, sums.col(0), sums.col(0))));
     const Eigen::MatrixXd inverse = system.solve(Eigen::MatrixXd::Identity(2 * n, 2 * n));
     const Eigen::VectorXd coefficient = system.solve(real_projection(sums.col(2)));

@@ -1,5 +1,5 @@
-// Poles from data without a guess: relaxed vector fitting (Gustavsen and Semlyen 1999, Gustavsen 2006), with
-// the curves' weights, and linear least squares for the residues of given poles.
+// Poles from data without a guess: relaxed vector fitting [Gustavsen1999] [Gustavsen2006] of the weighted
+// curves, and linear least squares for the residues of given poles. README.md, "Vector fitting".
 #pragma once
 
 #include <Eigen/Core>
@@ -9,16 +9,19 @@
 
 namespace stablecut::modal {
 
-/// Start poles over the band of the data: a third spaced by logarithm, a third evenly, and a third where the
-/// curves turn most, and one more on either side of the band. `pairs` at least 3. Positive imaginary parts,
-/// rad/s.
+/// Lines for each pole pair at least: least squares cannot tell more pairs apart.
+inline constexpr Eigen::Index kLinesPerPair = 3;
+
+/// Poles to start from (rad/s, with positive imaginary parts): a third of `pairs` evenly over the band by
+/// logarithm, a third evenly, a third where the curves turn most, and one more on either side of the band.
+/// `pairs` at least 3.
 Eigen::VectorXcd starting_poles(const FitData& data, Eigen::Index pairs);
 
-/// One relocation: poles of the data's common denominator, given poles near them. Unstable ones are mirrored,
-/// real ones become heavily damped. As many as given, sorted by frequency.
+/// One relocation: the poles of the data's common denominator, if the given poles are near them. Unstable
+/// ones are mirrored into the left half plane; two real ones become a heavily damped pair. Sorted by |pole|.
 Eigen::VectorXcd relocate_poles(const FitData& data, const Eigen::VectorXcd& poles);
 
-/// Full residue matrices for fixed poles by weighted linear least squares, curve by curve.
+/// Residues for given poles by weighted linear least squares, of any rank, curve by curve.
 struct LinearResidues {
   Eigen::MatrixXcd residue;  ///< [poles x curves]
   double chi_square = 0;     ///< sum of |model - h|^2 / variance

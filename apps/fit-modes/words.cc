@@ -1,0 +1,136 @@
+#include "words.h"
+
+#include <algorithm>
+
+#include "base/number_text.h"
+
+namespace stablecut {
+namespace {
+
+constexpr std::size_t kShownLines = 5;  // of the disturbed ones
+
+std::string number(double value) { return number_text(value, 3); }
+
+std::string name_of(const modal::EntryName& entry) { return "H" + entry.response + entry.reference; }
+
+std::string positive_on(const modal::TapFinding& finding, const std::string& guess) {
+  return name_of(finding.entry) + ": a driving point's imaginary part is negative, this is positive on " +
+         percent_text(finding.most) + guess + "; the modes would give energy away";
+}
+
+std::string poor_coherence(const modal::TapFinding& finding) {
+  std::string text = name_of(finding.entry) + ": coherence below " + number(finding.least) + " on " +
+                     percent_text(finding.most) + " of the lines that respond, from " +
+                     number(finding.lo_hz) + " to " + number(finding.hi_hz) + " Hz";
+  text += finding.hit_delay_s
+              ? ", with dips every " + number(1 / *finding.hit_delay_s) + " Hz, as of a second hit " +
+                    number(1e3 * *finding.hit_delay_s) + " ms after the first"
+              : ": noise, a double hit or a changing structure";
+  return text +
+         (finding.averages_known ? "; such lines weigh less" : "; with --averages N such lines weigh less");
+}
+
+std::string unusual_peak(const modal::TapFinding& finding) {
+  return "the largest receptance is " + number(finding.most) + " m/N, a structure as " +
+         (finding.kind == modal::TapFindingKind::kSoft ? "soft" : "stiff") + " as " +
+         number(1 / finding.most) +
+         " N/m: is that the unit (--unit, --quantity)? Depths of cut would be wrong by as much";
+}
+
+std::string disturbed_lines(const modal::TapFinding& finding) {
+  std::string list;
+  for (std::size_t i = 0; i < std::min(finding.lines_hz.size(), kShownLines); ++i)
+    list += (i == 0 ? "" : ", ") + number_text(finding.lines_hz[i]);
+  if (finding.lines_hz.size() > kShownLines) list += ", ...";
+  return "single lines stand out of their neighbours (" + std::to_string(finding.lines_hz.size()) + ": " +
+         list + " Hz), as hum does: left out, since each would be taken for a mode";
+}
+
+std::string list_of(const std::vector<modal::EntryName>& entries) {
+  std::string list;
+  for (const modal::EntryName& entry : entries)
+    list += (list.empty() ? "" : ", ") + entry.response + entry.reference;
+  return list;
+}
+
+}  // namespace
+
+std::string words_of(const modal::TapFinding& finding) {
+  const std::string name = name_of(finding.entry);
+  switch (finding.kind) {
+    case modal::TapFindingKind::kUnevenLines:
+      return "the lines are " + number(finding.least) + " to " + number(finding.most) +
+             " Hz apart: each counts alike, so that modes where they lie close are weighed more";
+    case modal::TapFindingKind::kZeroEntry:
+      return name + ": all lines are 0: a dead channel, or one that was not measured; taken as uncoupled";
+    case modal::TapFindingKind::kConstantEntry:
+      return name +
+             ": the same value on every line: a dead channel; modes that follow from it are not measured";
+    case modal::TapFindingKind::kNothingButNoise:
+      return name + ": nothing but noise: a dead channel, or uncoupled directions; it tells the fit nothing";
+    case modal::TapFindingKind::kDrift:
+      return "below " + number(finding.hi_hz) + " Hz " + name +
+             " rises towards 0 Hz as no structure does (noise, or an imaginary part above 0): integrated "
+             "drift of "
+             "the sensor; modes found there are not the structure's (--band)";
+    case modal::TapFindingKind::kNoiseAtHighEnd:
+      return "above " + number(finding.lo_hz) + " Hz " + name +
+             " is within 10 dB of its noise: these lines add little but computing time (--band)";
+    case modal::TapFindingKind::kLikeVelocity:
+      return name +
+             ": its real part has one sign, where a driving point's imaginary part has: is it a velocity "
+             "(--quantity), or was it one already? The modes would not be the tool's";
+    case modal::TapFindingKind::kPositiveRising:
+      return positive_on(
+          finding, ": is it an acceleration (--quantity)? Else the sign of response or force is swapped");
+    case modal::TapFindingKind::kPositiveFalling:
+      return positive_on(finding,
+                         ": is it a displacement already (--quantity)? Else the sign of response or "
+                         "force is swapped");
+    case modal::TapFindingKind::kPositive:
+      return positive_on(
+          finding, ": the sign of response or force is swapped, or it is another quantity (--quantity)");
+    case modal::TapFindingKind::kOppositeMirror:
+      return name + " is " + name_of(finding.mirror) +
+             " with the other sign: one direction is swapped in one of them (-x in the file or in --entry); "
+             "the modes cannot be reciprocal";
+    case modal::TapFindingKind::kNotReciprocal:
+      return "cross entries differ from their mirror images by " + percent_text(finding.most) +
+             ", noise alone would by " + percent_text(finding.least) +
+             ": not reciprocal, as a controlled robot is, or taps at other places than the sensor's; the "
+             "modes "
+             "follow what was measured";
+    case modal::TapFindingKind::kPoorCoherence:
+      return poor_coherence(finding);
+    case modal::TapFindingKind::kSoft:
+    case modal::TapFindingKind::kStiff:
+      return unusual_peak(finding);
+    case modal::TapFindingKind::kDisturbedLines:
+      return disturbed_lines(finding);
+  }
+  return "";
+}
+
+std::string words_of(const modal::FitFinding& finding) {
+  switch (finding.kind) {
+    case modal::FitFindingKind::kVarianceTooSmall:
+      return "the residual is much larger than the given variance: the noise was estimated instead";
+    case modal::FitFindingKind::kFewerModes:
+      return "only " + std::to_string(finding.modes) + " modes could be told apart";
+    case modal::FitFindingKind::kSelectionUnsettled:
+      return "the selection of modes was ended before it had settled, at " + std::to_string(finding.modes) +
+             " modes: there may be more (--band divides the work)";
+    case modal::FitFindingKind::kByReciprocity:
+      return "missing entries " + list_of(finding.missing) +
+             ": what they would tell is set by reciprocity, or to zero";
+    case modal::FitFindingKind::kTakenAsUncoupled:
+      return "missing entries " + list_of(finding.missing) + ": these directions are taken as uncoupled";
+    case modal::FitFindingKind::kModelError:
+      return "the residual is larger than the noise, or not white: " +
+             std::string(finding.restricted ? "modes of this model" : "the strongest modes") + " leave " +
+             percent_text(finding.error) + " of the curves";
+  }
+  return "";
+}
+
+}  // namespace stablecut

@@ -1,0 +1,108 @@
+#include "words.h"
+
+#include <catch2/catch.hpp>
+
+using namespace stablecut;
+using modal::FitFinding;
+using modal::FitFindingKind;
+using modal::TapFinding;
+using modal::TapFindingKind;
+
+namespace {
+
+const modal::EntryName kXx{"x", "x"}, kXy{"x", "y"}, kYx{"y", "x"};
+
+void check(const TapFinding& finding, const std::string& text) { CHECK(words_of(finding) == text); }
+void check(const FitFinding& finding, const std::string& text) { CHECK(words_of(finding) == text); }
+
+}  // namespace
+
+TEST_CASE("what a tap shows about itself, in words") {
+  check({.kind = TapFindingKind::kUnevenLines, .least = 0.11567, .most = 11.5},
+        "the lines are 0.116 to 11.5 Hz apart: each counts alike, so that modes where they lie close are "
+        "weighed more");
+  check({.kind = TapFindingKind::kZeroEntry, .entry = kXy},
+        "Hxy: all lines are 0: a dead channel, or one that was not measured; taken as uncoupled");
+  check({.kind = TapFindingKind::kConstantEntry, .entry = kXy},
+        "Hxy: the same value on every line: a dead channel; modes that follow from it are not measured");
+  check({.kind = TapFindingKind::kNothingButNoise, .entry = kYx},
+        "Hyx: nothing but noise: a dead channel, or uncoupled directions; it tells the fit nothing");
+  check({.kind = TapFindingKind::kDrift, .entry = kXx, .hi_hz = 65.4},
+        "below 65.4 Hz Hxx rises towards 0 Hz as no structure does (noise, or an imaginary part above 0): "
+        "integrated drift of the sensor; modes found there are not the structure's (--band)");
+  check({.kind = TapFindingKind::kNoiseAtHighEnd, .entry = kXx, .lo_hz = 810},
+        "above 810 Hz Hxx is within 10 dB of its noise: these lines add little but computing time (--band)");
+  check({.kind = TapFindingKind::kLikeVelocity, .entry = kXx},
+        "Hxx: its real part has one sign, where a driving point's imaginary part has: is it a velocity "
+        "(--quantity), or was it one already? The modes would not be the tool's");
+  check({.kind = TapFindingKind::kPositiveRising, .entry = kXx, .most = 1},
+        "Hxx: a driving point's imaginary part is negative, this is positive on 100 %: is it an acceleration "
+        "(--quantity)? Else the sign of response or force is swapped; the modes would give energy away");
+  check({.kind = TapFindingKind::kPositiveFalling, .entry = kXx, .most = 0.9},
+        "Hxx: a driving point's imaginary part is negative, this is positive on 90 %: is it a displacement "
+        "already (--quantity)? Else the sign of response or force is swapped; the modes would give energy "
+        "away");
+  check(
+      {.kind = TapFindingKind::kPositive, .entry = kXx, .most = 1},
+      "Hxx: a driving point's imaginary part is negative, this is positive on 100 %: the sign of response or "
+      "force is swapped, or it is another quantity (--quantity); the modes would give energy away");
+  check({.kind = TapFindingKind::kOppositeMirror, .entry = kXy, .mirror = kYx},
+        "Hxy is Hyx with the other sign: one direction is swapped in one of them (-x in the file or in "
+        "--entry); the modes cannot be reciprocal");
+  check(
+      {.kind = TapFindingKind::kNotReciprocal, .least = 0.012, .most = 0.2},
+      "cross entries differ from their mirror images by 20 %, noise alone would by 1.2 %: not reciprocal, as "
+      "a controlled robot is, or taps at other places than the sensor's; the modes follow what was measured");
+  check({.kind = TapFindingKind::kSoft, .most = 0.5},
+        "the largest receptance is 0.5 m/N, a structure as soft as 2 N/m: is that the unit (--unit, "
+        "--quantity)? Depths of cut would be wrong by as much");
+  check({.kind = TapFindingKind::kStiff, .most = 1e-12},
+        "the largest receptance is 1e-12 m/N, a structure as stiff as 1e+12 N/m: is that the unit (--unit, "
+        "--quantity)? Depths of cut would be wrong by as much");
+  check({.kind = TapFindingKind::kPoorCoherence,
+         .entry = kXx,
+         .lo_hz = 40,
+         .hi_hz = 990,
+         .least = 0.8,
+         .most = 0.4,
+         .hit_delay_s = 0.012},
+        "Hxx: coherence below 0.8 on 40 % of the lines that respond, from 40 to 990 Hz, with dips every 83.3 "
+        "Hz, "
+        "as of a second hit 12 ms after the first; with --averages N such lines weigh less");
+  check(
+      {.kind = TapFindingKind::kPoorCoherence,
+       .entry = kXx,
+       .lo_hz = 40,
+       .hi_hz = 990,
+       .least = 0.8,
+       .most = 0.4,
+       .averages_known = true},
+      "Hxx: coherence below 0.8 on 40 % of the lines that respond, from 40 to 990 Hz: noise, a double hit or "
+      "a changing structure; such lines weigh less");
+  TapFinding disturbed{.kind = TapFindingKind::kDisturbedLines};
+  disturbed.lines_hz = {50, 100, 150};
+  check(disturbed,
+        "single lines stand out of their neighbours (3: 50, 100, 150 Hz), as hum does: left out, since each "
+        "would be taken for a mode");
+  disturbed.lines_hz = {50, 100, 150, 200, 250, 300};
+  check(disturbed,
+        "single lines stand out of their neighbours (6: 50, 100, 150, 200, 250, ... Hz), as hum does: left "
+        "out, since each would be taken for a mode");
+}
+
+TEST_CASE("what a fit leaves to be known, in words") {
+  check({.kind = FitFindingKind::kVarianceTooSmall},
+        "the residual is much larger than the given variance: the noise was estimated instead");
+  check({.kind = FitFindingKind::kFewerModes, .modes = 3}, "only 3 modes could be told apart");
+  check({.kind = FitFindingKind::kSelectionUnsettled, .modes = 60},
+        "the selection of modes was ended before it had settled, at 60 modes: there may be more (--band "
+        "divides the work)");
+  check({.kind = FitFindingKind::kByReciprocity, .missing = {kXy, {"y", "y"}}},
+        "missing entries xy, yy: what they would tell is set by reciprocity, or to zero");
+  check({.kind = FitFindingKind::kTakenAsUncoupled, .missing = {kXy, kYx}},
+        "missing entries xy, yx: these directions are taken as uncoupled");
+  check({.kind = FitFindingKind::kModelError, .error = 0.017},
+        "the residual is larger than the noise, or not white: the strongest modes leave 1.7 % of the curves");
+  check({.kind = FitFindingKind::kModelError, .error = 0.3, .restricted = true},
+        "the residual is larger than the noise, or not white: modes of this model leave 30 % of the curves");
+}

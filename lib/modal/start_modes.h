@@ -1,0 +1,12 @@
+// Modes to start a search from, without a guess: README.md, "Start".
+#pragma once
+
+#include "modal/group_fit.h"
+
+namespace stablecut::modal {
+
+/// Poles of the weighted curves by vector fitting, those that matter, as modes with the nearest residues of
+/// rank one, refined; the rigid body of a suspended structure as one mode for each direction.
+RefinedModes start_modes(const GroupFit& fit);
+
+}  // namespace stablecut::modal
