@@ -1,5 +1,5 @@
 // How near fits come to the Cramer-Rao bound, how often they find the right number of modes, and how often
-// their 95 % intervals hold the truth: over seeds, without a variance in the data.
+// their 95 % intervals cover the true value: over seeds, without a variance in the data.
 //
 //   fit_benchmark TABLE [SEEDS]     TABLE: the modal table of the 15-mode case
 #include <algorithm>

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# joint-stiffness on samples: exact ones give the truth, as JSON and as CSV; what cannot be known is null; plans.
+# joint-stiffness on samples: exact ones give the true values, as JSON and as CSV; what cannot be known is null; plans.
 . "$SOURCE/apps/testing.sh"
 robot=$data/kr360.json
 same_for_every_tool joint-stiffness joint-stiffness --robot "$robot"
@@ -7,7 +7,7 @@ same_for_every_tool joint-stiffness joint-stiffness --robot "$robot"
 jq '{format: "stablecut/joint-stiffness/1", stiffness_n_m_per_rad: .k_theta_2d_n_m_per_rad}' "$data/yanshan-poses.json" >truth.json
 jq '{format: "stablecut/pose-list/1", poses: [.height_1600_mm[], .height_1200_mm[] | {joints_deg}]}' "$data/yanshan-poses.json" >poses.json
 
-# samples ROBOT FORCE...: load samples with the deflections that best-pose predicts from the truth.
+# samples ROBOT FORCE...: load samples with the deflections that best-pose predicts from the true values.
 samples() {
   local robot=$1; shift
   for force in "$@"; do
@@ -26,7 +26,7 @@ check "the joint that the loads cannot see is named" grep -q '^joint-stiffness: 
 check "one warning" test "$(wc -l <.err)" -eq 1
 check_jq "five joints, the sixth null" found.json '.identifiable == [true, true, true, true, true, false] and .rank == 5
   and .stiffness_n_m_per_rad[5] == null and .interval_95_n_m_per_rad[5] == null and .covariance_compliance[5] == [null, null, null, null, null, null]'
-check_jq "exact samples give the truth" found.json "$close_to_truth" --slurpfile truth truth.json
+check_jq "exact samples give the true values" found.json "$close_to_truth" --slurpfile truth truth.json
 
 # A point off the axis, for load and measurement: all six. As a tool, and as points of each sample.
 jq '.tool.translation_mm = [150, 50, 210]' "$robot" >offset.json
@@ -43,10 +43,10 @@ jq -r '"dz [um];Fx (N);Fy [N];Fz_n;note;A6;A5;A4;A3;A2;A1;dx_um;dy_mm", (.sample
   [.deflection_mm[2] * 1000, .force_n[], "pose", (.joints_deg | reverse[]), .deflection_mm[0] * 1000, .deflection_mm[1]]
   | map(tostring | gsub("\\."; ",")) | join(";")), ";;;;;;;;;;;;"' loads.json >loads.csv
 joint-stiffness --robot "$robot" --quiet loads.csv -o found.json
-check_jq "CSV gives the truth" found.json "$close_to_truth" --slurpfile truth truth.json
+check_jq "CSV gives the true values" found.json "$close_to_truth" --slurpfile truth truth.json
 jq -r '.samples[] | [.joints_deg[], .force_n[], .deflection_mm[]] | @csv' loads.json |
   joint-stiffness --robot "$robot" --quiet -o found.json
-check_jq "twelve bare columns give the truth" found.json "$close_to_truth" --slurpfile truth truth.json
+check_jq "twelve bare columns give the true values" found.json "$close_to_truth" --slurpfile truth truth.json
 
 sed 's/;/\t/g' loads.csv | awk -F'\t' -v OFS='\t' 'NR == 1 {print; next} {$1 = ""; print}' >no-z.csv
 joint-stiffness --robot "$robot" --quiet --components xy no-z.csv -o found.json

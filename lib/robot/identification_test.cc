@@ -11,7 +11,7 @@ using namespace stablecut;
 using namespace stablecut::robot;
 using namespace stablecut::robot::fixtures;
 
-TEST_CASE("what the loads can see: 2, 4, 5 and 6 joints, each named; exact data give the truth") {
+TEST_CASE("what the loads can see: 2, 4, 5 and 6 joints, each named; exact data give the true values") {
   const Robot robot = kr360();
   const Eigen::Vector3d off(0.15, 0.05, 0.21);
   const auto plane = tool_down_poses(robot, {1.6}), cube = tool_down_poses(robot, {1.2, 1.5, 1.8});
@@ -76,7 +76,7 @@ TEST_CASE("one sample cannot tell joints apart, and says so") {
   CHECK_FALSE(found.any_identified());
 }
 
-TEST_CASE("95 % intervals hold the truth in 93 to 97 % of all joints and 500 runs") {
+TEST_CASE("95 % intervals cover the true value in 93 to 97 % of all joints and 500 runs") {
   const Robot robot = kr360();
   const auto coverage = [&](const Setup& setup, double std_m, double std_rad, bool stated, bool huber) {
     std::vector<LoadSample> exact = samples_of(robot, setup);
