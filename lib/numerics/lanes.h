@@ -9,8 +9,8 @@
 /// Put before a function whose loops should use wide vectors where the processor has them. Its sums must be
 /// in lanes of a fixed number, so that every width gives the same bits; fused multiply-adds are off
 /// everywhere.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)
 #define STABLECUT_WIDE __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define STABLECUT_WIDE

@@ -2,7 +2,7 @@
 """Numbers in the code that are plain mathematics or definitions, each with its closed form.
 
 Golden section: lib/numerics/golden_section.h. Windows
-of a sixth of an octave: kWindowRatio in lib/modal/tap_checks.cc. A phase of -45 degrees: kPhase in
+of a sixth of an octave: kWindowRatio in lib/modal/line_windows.cc. A phase of -45 degrees: kPhase in
 lib/modal/mode_parameters.cc. Rounding by adding 1.5 2^52: kShift in lib/numerics/elementary_lanes.h. Pound-force and
 standard gravity, by definition: lib/document/measured/frf_unit.cc. Weights 1, -4, 6, -4, 1 over the root of 70 of
 fourth differences on equal lines: lib/dynamics/noise.cc. Numbers of universal files, dataset 164:
@@ -22,7 +22,7 @@ mp.dps = 40
 golden = (sqrt(mpf(5)) - 1) / 2
 checks = [
     ("lib/numerics/golden_section.h", f"kGoldenShare = {1 - float(golden)!r};", "1 - (sqrt(5) - 1) / 2, in double"),
-    ("lib/modal/tap_checks.cc", f"kWindowRatio = {nstr(mpf(2) ** (mpf(1) / 6), 5)};", "2^(1/6), five digits"),
+    ("lib/modal/line_windows.cc", f"kWindowRatio = {nstr(mpf(2) ** (mpf(1) / 6), 5)};", "2^(1/6), five digits"),
     ("lib/modal/mode_parameters.cc", f"std::polar(1.0, {float(-pi / 4)!r})", "-pi / 4"),
     ("lib/numerics/elementary_lanes.h", f"kShift = {1.5 * 2.0**52!r};", "1.5 2^52"),
     ("lib/document/measured/frf_unit.cc", f"kGravity = {float(Fraction('9.80665'))!r};", "definition (CGPM 1901), m/s^2"),

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Numbers that the normal, Student, chi-square and F distributions give.
 
-In the code: 0.6745 (median of |z| of a normal variable) and kOutlier (both tails beyond 4) in
-lib/robot/identification.cc; kNormal95 in lib/receptance/joint_identification.cc; the two-sided 95 % point in
+In the code: kMedianOfNormal (median of |z| of a normal variable) in lib/robot/compliance_fit.cc; kOutlierTail (both
+tails beyond 4) in lib/robot/leave_one_out.cc; kNormal95 in lib/receptance/joint_identification.cc; the two-sided 95 % point in
 apps/fit-modes/fit_benchmark.cc; kMedianOfExponential in lib/dynamics/noise.cc is log 2 in words. In the
 tests: the quantiles of lib/numerics/distributions_test.cc, three of which (t with 1, 5 and 10 degrees of freedom)
 are off in their last digits, by at most 4e-10, within the tests' tolerance of 1e-9. In the manual of
@@ -37,10 +37,11 @@ def f_tail(x, numerator, denominator):
 quarter = findroot(lambda x: normal_tail(x) - mpf(1) / 4, 0.67)
 two_sided = findroot(lambda x: normal_tail(x) - mpf("0.025"), 1.96)
 beyond_four = 2 * normal_tail(mpf(4))
-identification = [f"/ {nstr(quarter, 4)};", f"constexpr double kOutlier = {nstr(beyond_four, 2)};"]
+median = f"constexpr double kMedianOfNormal = {nstr(quarter, 4)};"
+outlier = f"constexpr double kOutlierTail = {nstr(beyond_four, 2)};"
 joint = f"constexpr double kNormal95 = {nstr(two_sided, 3)};"
 benchmark = f"{nstr(two_sided, 7)} * deviation.array()"
-print("\n".join(identification + [joint, benchmark]))
+print("\n".join([median, outlier, joint, benchmark]))
 print("one in", nstr(1 / beyond_four, 5), "beyond four deviations")
 print("median of a unit exponential:", nstr(findroot(lambda x: exp(-x) - mpf(1) / 2, 0.7), 17),
       "= log 2:", nstr(log(mpf(2)), 17))
@@ -58,7 +59,8 @@ tests.append((r"chi_square_tail\(([0-9.]+), 10\)", findroot(lambda x: chi_square
 tests.append((r"f_tail\(([0-9.]+), 2, 9\)", findroot(lambda x: f_tail(x, 2, 9) - five, 4.26)))
 print("for the tests:", "  ".join(nstr(value, 12, strip_zeros=False) for _, value in tests))
 print("error: half of the last digit printed")
-stands_in("lib/robot/identification.cc", *identification)
+stands_in("lib/robot/compliance_fit.cc", median)
+stands_in("lib/robot/leave_one_out.cc", outlier)
 stands_in("lib/receptance/joint_identification.cc", joint)
 stands_in("apps/fit-modes/fit_benchmark.cc", benchmark)
 stands_in("apps/rcsa-couple/rcsa-couple.1", manual)
