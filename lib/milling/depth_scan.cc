@@ -81,7 +81,9 @@ DepthScan::DepthScan(const PeriodMap& map, double largest_depth_m, double tolera
       }
     }
     from = panel.to_m;
+    // Where rounding alone makes an error near the tolerance, narrower panels are no better.
     width *= panel.resolved ? std::clamp(wanted, kLeastShrink, kMostGrowth) : kUnresolvedGrowth;
+    width = std::max(width, kLeastShrink * kLeastWidth * largest_depth_m);
     panels_.push_back(std::move(panel));
   }
 }

@@ -17,7 +17,7 @@ constexpr double kFarStep = 0.5, kFarthestMargins = 3;
 // Minima of the chart around which the lowest limit is searched, by so many steps of golden section. Limits
 // up to kAbove times the lowest one known are computed there: what lies above cannot become the lowest.
 constexpr std::size_t kRefinedMinima = 2;
-constexpr int kGoldenSteps = 10;
+constexpr int kMinimumSteps = 10;
 constexpr double kAbove = 1.1;
 // A flip's lobe: as wide as so many damping ratios of its mode, searched at so many steps; and above so many
 // waves in a period lobes are broad enough for the chart's speeds.
@@ -31,7 +31,7 @@ bool lower(const std::optional<double>& a, const std::optional<double>& b) { ret
 LimitPoint refined_minimum(double from, double to, const LimitPoint& best, const LimitAt& limit_at) {
   const double top = kAbove * *best.depth_m;
   return numerics::golden_section(
-      from, to, best, kGoldenSteps, [](const LimitPoint& point) { return point.revolutions_per_s; },
+      from, to, best, kMinimumSteps, [](const LimitPoint& point) { return point.revolutions_per_s; },
       [&](double speed) {
         return LimitPoint{speed, limit_at(speed, top)};
       },
