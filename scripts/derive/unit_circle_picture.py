@@ -77,7 +77,7 @@ set size ratio -1
 set key below
 set title "eigenvalues along the upper half of the circle, 1/mm"
 set xlabel "real part"; set ylabel "imaginary part"
-set label 1 "1 / {LIMIT} mm: flip" at {1 / LIMIT},0 offset 0.8,0.6
+set label 1 "flip: 1/({LIMIT:.2f} mm)" at {1 / LIMIT},0 offset 0.6,0.6
 set xrange [-0.8:1.2]; set yrange [-0.8:0.8]
 plot $loci using 1:2 with points pt 7 ps 0.25 lc rgb "#0072b2" title "the {SHOWN} largest", \
   $flip using 1:2 with points pt 6 ps 0.8 lc rgb "#d55e00" title "at mu = -1"
