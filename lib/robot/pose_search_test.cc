@@ -66,7 +66,7 @@ TEST_CASE("tool-down optima of the KR360, to 0.1 %, on limits and inside") {
     if (!std::isnan(c.joint2_deg))
       CHECK(degrees_from_radians(search.best.angles[1]) == Approx(c.joint2_deg).margin(0.1));
     if (!std::isnan(c.joint3_deg))
-      CHECK(degrees_from_radians(search.best.angles[2]) == Approx(c.joint3_deg).margin(1e-6));
+      CHECK(std::abs(degrees_from_radians(search.best.angles[2]) - c.joint3_deg) < 1e-6);
     CHECK(has_family(search, PoseFamily::Kind::kBaseTurn));
     CHECK(has_family(search, PoseFamily::Kind::kFlippedWrist));
     CHECK(search.redundancy_matters == (c.index == std::string("combined")));
@@ -107,7 +107,7 @@ TEST_CASE("the limit margin is kept, and the optimum lies on it") {
   const PoseTask task = tool_down(robot, 1.6, "deflection", 5);
   const PoseSearch search = search_poses(robot, task, 0, 1);
   check_pose(robot, task, search.best);
-  CHECK(degrees_from_radians(search.best.angles[1]) == Approx(-125).margin(1e-6));
+  CHECK(std::abs(degrees_from_radians(search.best.angles[1]) + 125) < 1e-6);
   CHECK(search.alternatives.empty());
 }
 
@@ -340,7 +340,7 @@ TEST_CASE("no pose, and why") {
   }
   CHECK(least < 0);
   CHECK(limit.joint == joint);
-  CHECK(limit.margin_rad == Approx(least).margin(1e-9));
+  CHECK(std::abs(limit.margin_rad - least) < 1e-9);
   task = tool_down(robot, 1.6, "combined", 2);
   task.singularity_margin = 0.9;
   CHECK(obstacle(task).kind == Obstacle::Kind::kSingularity);
