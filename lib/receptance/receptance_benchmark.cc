@@ -184,7 +184,7 @@ void count_missed(const Row& row, int joints) {
     }
   }
   std::printf("  %-40s %3d of %d missed", row.what, missed, joints);
-  std::printf(missed > 0 ? " (by up to %.3g)" : "", worst);
+  if (missed > 0) std::printf(" (by up to %.3g)", worst);
   std::printf(" %6.1f ms each\n", 1e3 * time / joints);
 }
 
