@@ -3,7 +3,6 @@
 //
 //   fit_benchmark TABLE [SEEDS]     TABLE: the modal table of the 15-mode case
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <complex>
 #include <cstdio>
@@ -15,6 +14,8 @@
 #include <string>
 
 #include "base/parallel.h"
+#include "base/seconds_benchmark.h"
+#include "base/units.h"
 #include "document/kinds/modal_table_json.h"
 #include "dynamics/synthesis.h"
 #include "modal/fit.h"
@@ -32,7 +33,7 @@ dynamics::Mode random_mode(double frequency_hz, double damping_ratio, std::mt199
   dynamics::Mode mode;
   mode.frequency_hz = frequency_hz;
   mode.damping_ratio = damping_ratio;
-  const double scale = std::sqrt(6.283185307179586 * frequency_hz * 1e-7);
+  const double scale = std::sqrt(kTwoPi * frequency_hz * 1e-7);
   mode.psi_r =
       scale * Eigen::Vector2cd(numerics::unit_complex_normal(random), numerics::unit_complex_normal(random));
   mode.psi_l =
@@ -87,7 +88,7 @@ struct Outcome {
 modal::FitData exact_data(const dynamics::ModalModel& truth, const Case& c,
                           const dynamics::FrequencyResponse& noisy) {
   modal::FitData data;
-  data.s = Complex(0, 6.283185307179586) * c.lines_hz.cast<Complex>();
+  data.s = Complex(0, kTwoPi) * c.lines_hz.cast<Complex>();
   data.dofs = 2;
   const dynamics::FrequencyResponse exact = dynamics::synthesize(truth, c.lines_hz);
   for (std::size_t e = 0; e < exact.entries.size(); ++e) {
@@ -113,9 +114,8 @@ Outcome run(const Case& c, std::uint64_t seed) {
       modal::fitted_table(exact_data(truth, c, measured), truth.modes, modal::ModeModel::kNonsymmetric);
   for (auto& entry : measured.entries) entry.variance.resize(0);
   Outcome outcome;
-  const auto start = std::chrono::steady_clock::now();
-  const modal::ModalFit fit = modal::fit_modes(measured);
-  outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  modal::ModalFit fit;
+  outcome.seconds = seconds([&] { fit = modal::fit_modes(measured); });
   outcome.modes = fit.model.modes.size();
   outcome.wanted = truth.modes.size();
   outcome.resolvable = true;

@@ -3,14 +3,13 @@
 //   lobes_benchmark TABLE CUT     the 15-mode table and its cut
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <functional>
 #include <iterator>
 #include <thread>
 #include <vector>
 
 #include "base/range.h"
+#include "base/seconds_benchmark.h"
 #include "base/units.h"
 #include "cli/streams.h"
 #include "document/kinds/cut_json.h"
@@ -24,17 +23,6 @@
 using namespace stablecut;
 
 namespace {
-
-double seconds(const std::function<void()>& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-// The best of three: other work on the machine only adds.
-double best_seconds(const std::function<void()>& work) {
-  return std::min({seconds(work), seconds(work), seconds(work)});
-}
 
 double sink = 0;
 
@@ -63,7 +51,7 @@ struct Case {
     return milling::stability_chart(structure, cutter, speeds, depths, {}, with_grid, threads);
   }
   double time(bool with_grid, int threads = 1) const {
-    return best_seconds([&] { sink += chart(with_grid, threads).error[0]; });
+    return least_seconds([&] { sink += chart(with_grid, threads).error[0]; });
   }
 };
 
@@ -168,7 +156,7 @@ void eigenvalue_solvers(const Case& thesis) {
   for (int i = 1; i <= 8; ++i) matrices.push_back(map.monodromy(i * 0.4e-3));
   constexpr int kRepeats = 200;
   const auto time = [&](const std::function<void()>& work) {
-    return 1e6 * best_seconds([&] {
+    return 1e6 * least_seconds([&] {
              for (int i = 0; i < kRepeats; ++i) work();
            }) /
            (kRepeats * 8);

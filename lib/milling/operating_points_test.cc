@@ -144,6 +144,7 @@ TEST_CASE("what to run keeps the chart's limits, and power and torque by the fee
   for (const CutRate& rate : less.rates) CHECK(rate.power_w <= *request.largest_power_w * (1 + 1e-12));
   CHECK(less.rates[0].power_w == Approx(*request.largest_power_w));
   request.largest_torque_n_m = 0.5 * less.rates[0].torque_n_m;
-  for (const CutRate& rate : what_to_run(structure, cutter, curve, request, 1).rates)
-    CHECK(rate.torque_n_m <= *request.largest_torque_n_m * (1 + 1e-12));
+  const WhatToRun least = what_to_run(structure, cutter, curve, request, 1);
+  REQUIRE(!least.rates.empty());
+  for (const CutRate& rate : least.rates) CHECK(rate.torque_n_m <= *request.largest_torque_n_m * (1 + 1e-12));
 }

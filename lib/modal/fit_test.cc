@@ -80,7 +80,7 @@ TEST_CASE("a doubled structure gives two rank-1 modes for each pole, exact zeros
   dynamics::ModalModel truth;
   truth.dofs = {"x", "y"};
   for (const double frequency : {294.0, 1830.0}) {
-    const Complex psi = std::sqrt(Complex(0, -1 / (2 * 0.05 * 6.283185307179586 * frequency)));
+    const Complex psi = std::sqrt(Complex(0, -1 / (2 * 0.05 * kTwoPi * frequency)));
     truth.modes.push_back(fixtures::mode(frequency, 0.01, {psi, 0}, {psi, 0}));
     truth.modes.push_back(fixtures::mode(frequency, 0.01, {0, psi}, {0, psi}));
   }

@@ -3,6 +3,7 @@
 
 #include <complex>
 
+#include "base/units.h"
 #include "dynamics/synthesis.h"
 #include "modal/fit_data.h"
 
@@ -36,7 +37,7 @@ inline FitData data_of(const dynamics::ModalModel& model, double relative_noise)
   const dynamics::FrequencyResponse frf =
       dynamics::synthesize(model, Eigen::VectorXd::LinSpaced(1000, 1, 1000));
   FitData data;
-  data.s = std::complex<double>(0, 6.283185307179586) * frf.frequency_hz.cast<std::complex<double>>();
+  data.s = std::complex<double>(0, kTwoPi) * frf.frequency_hz.cast<std::complex<double>>();
   data.dofs = 2;
   for (const auto& entry : frf.entries) {
     data.curves.push_back({model.dof(entry.response), model.dof(entry.reference), entry.h,

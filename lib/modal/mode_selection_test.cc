@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "base/units.h"
 #include "modal/modal_fixtures_test.h"
 
 using namespace stablecut;
@@ -28,7 +29,7 @@ GroupFit noisy_fit(const dynamics::ModalModel& truth, std::uint64_t seed, double
 // At the line of that many Hz, so many line spacings (1 Hz) of half width.
 dynamics::Mode narrow_mode(double hz, double spacings) {
   dynamics::Mode mode = fixtures::mode(hz, 0.1, {1, 1}, {1e-6, 1e-6});
-  dynamics::set_pole(mode, Complex(-spacings, hz) * 6.283185307179586);
+  dynamics::set_pole(mode, kTwoPi * Complex(-spacings, hz));
   return mode;
 }
 

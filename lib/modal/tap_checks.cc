@@ -206,21 +206,22 @@ void compare_mirrors(const Eigen::VectorXd& hz, const Channel& a, const Channel&
 
 void check_mirrors(const Eigen::VectorXd& hz, const std::vector<Channel>& channels, double usable_from_hz,
                    Findings& findings) {
-  MirrorComparison all;
+  MirrorComparison comparison;  // of the last pair in its cosine, of all pairs in the rest
   for (const Channel& a : channels) {
     for (const Channel& b : channels) {
       const bool mirrored =
           a.entry->response == b.entry->reference && a.entry->reference == b.entry->response;
       if (!mirrored || a.dead || b.dead || a.entry->response >= a.entry->reference) continue;
-      all.cosine.clear();
-      compare_mirrors(hz, a, b, usable_from_hz, all);
-      if (all.cosine.empty() || median(all.cosine) > -kWrongSign) continue;
+      comparison.cosine.clear();
+      compare_mirrors(hz, a, b, usable_from_hz, comparison);
+      if (comparison.cosine.empty() || median(comparison.cosine) > -kWrongSign) continue;
       findings.push_back({.kind = TapFindingKind::kOppositeMirror, .entry = a.name(), .mirror = b.name()});
       return;
     }
   }
-  if (all.difference.empty()) return;
-  const double index = median(std::move(all.difference)), of_noise = median(std::move(all.noise));
+  if (comparison.difference.empty()) return;
+  const double index = median(std::move(comparison.difference)),
+               of_noise = median(std::move(comparison.noise));
   if (index < std::max(kNotReciprocalShare, kNotReciprocalNoises * of_noise)) return;
   findings.push_back({.kind = TapFindingKind::kNotReciprocal, .least = of_noise, .most = index});
 }

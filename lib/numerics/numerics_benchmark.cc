@@ -1,24 +1,21 @@
 // The processor's speed of the day, by library code that this project does not change: what scripts/bench
 // divides by.
 #include <Eigen/Eigenvalues>
-#include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <random>
 
+#include "base/seconds_benchmark.h"
 #include "numerics/random.h"
 
 int main() {
   std::mt19937_64 generator(1);
   const Eigen::MatrixXd matrix =
       Eigen::MatrixXd::NullaryExpr(60, 60, [&] { return stablecut::numerics::unit_normal(generator); });
-  double best = 1e9, sink = 0;
-  for (int round = 0; round < 7; ++round) {
-    const auto start = std::chrono::steady_clock::now();
+  double sink = 0;
+  const auto work = [&] {
     for (int i = 0; i < 100; ++i)
       sink += Eigen::EigenSolver<Eigen::MatrixXd>(matrix, false).eigenvalues()[0].real();
-    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  }
-  std::printf("%.6f\n", best);
+  };
+  std::printf("%.6f\n", stablecut::least_seconds(work, 7));
   return sink == 0;
 }

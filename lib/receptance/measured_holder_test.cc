@@ -259,7 +259,7 @@ TEST_CASE("a line at 0 Hz of a measured acceleration") {
   frf.quantity = dynamics::Quantity::kAccelerance;
   for (auto& entry : frf.entries) {
     Eigen::VectorXcd h(kLines.size() + 1);
-    h << 0, (-(6.283185307179586 * kLines).array().square() * entry.h.array()).matrix();
+    h << 0, (-(kTwoPi * kLines).array().square() * entry.h.array()).matrix();
     entry.h = h;
   }
   frf.frequency_hz.resize(kLines.size() + 1);

@@ -3,14 +3,13 @@
 //
 //   receptance_benchmark [JOINTS]     JOINTS: in each row (200)
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <functional>
 #include <random>
 #include <string>
 
+#include "base/seconds_benchmark.h"
 #include "numerics/random.h"
 #include "receptance/joint_search.h"
 #include "receptance/receptance_fixtures_test.h"
@@ -23,21 +22,8 @@ namespace {
 
 double sink = 0;
 
-double seconds_of(const std::function<void()>& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-// The shortest of five runs: other work on the machine only adds.
-double least_seconds(const std::function<void()>& work) {
-  double least = seconds_of(work);
-  for (int i = 0; i < 4; ++i) least = std::min(least, seconds_of(work));
-  return least;
-}
-
-void print_time(const std::string& what, double seconds, int count) {
-  std::printf("  %-72s %8.2f us\n", what.c_str(), 1e6 * seconds / count);
+void print_time(const std::string& what, double time, int count) {
+  std::printf("  %-72s %8.2f us\n", what.c_str(), 1e6 * time / count);
 }
 
 void time_segments() {
@@ -167,7 +153,7 @@ void count_missed(const Row& row, int joints) {
     if (row.narrow)
       trial.data.variance = Eigen::VectorXd::Constant(trial.data.tip.size(), trial.data.tip.squaredNorm());
     JointEstimate estimate;
-    time += seconds_of([&] { estimate = identify_joint(trial.data, bounds, row.objective); });
+    time += seconds([&] { estimate = identify_joint(trial.data, bounds, row.objective); });
     const double error = error_of(trial, estimate.joint, row);
     // Where no bound holds it back the true joint is the measure, else the best of many searches.
     const double least = row.narrow
@@ -176,11 +162,6 @@ void count_missed(const Row& row, int joints) {
     if (error > 1.001 * least + 1e-6) {
       ++missed;
       worst = std::max(worst, error / (least + 1e-6));
-      if (std::getenv("SHOW") != nullptr) {
-        const JointValues v = values_of(estimate.joint), t = values_of(trial.joint);
-        std::printf("    seed %d: error %g, least %g; found %g %g %g %g, true %g %g %g %g\n", n + 1, error,
-                    least, v[0], v[1], v[2], v[3], t[0], t[1], t[2], t[3]);
-      }
     }
   }
   std::printf("  %-40s %3d of %d missed", row.what, missed, joints);

@@ -1,12 +1,11 @@
 // Speed of the robot room on one core, as rates and ratios within one run: inverse kinematics, compliance, a
 // map of the plane; beside them, when it is installed, Orocos KDL on the same robot.
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <functional>
 #include <vector>
 
+#include "base/seconds_benchmark.h"
 #include "robot/compliance.h"
 #include "robot/pose_search.h"
 #include "robot/robot_fixtures_test.h"
@@ -25,17 +24,6 @@ using namespace stablecut::robot::fixtures;
 namespace {
 
 double sink = 0;
-
-// The shortest of three runs: other work on the machine only adds.
-double seconds(const std::function<void()>& work) {
-  double least = 1e9;
-  for (int i = 0; i < 3; ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    least = std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  }
-  return least;
-}
 
 void print_rate(const char* what, double count, double time) {
   std::printf("  %-66s %8.3f million/s\n", what, 1e-6 * count / time);
@@ -87,7 +75,7 @@ int main() {
     targets.push_back(inverse.target_of(robot_pose(robot, poses.back()).tool));
   }
   std::printf("KR360, one core\n");
-  const double inverse_time = seconds([&] {
+  const double inverse_time = least_seconds([&] {
     ArmLanes lanes;
     for (int r = 0; r < kRepeats; ++r) {
       for (const ArmTarget& target : targets) {
@@ -99,7 +87,7 @@ int main() {
   const double solves = static_cast<double>(kPoses) * kRepeats;
   print_rate("inverse kinematics, 8 branches with copies and limits", solves, inverse_time);
 
-  const double pose_time = seconds([&] {
+  const double pose_time = least_seconds([&] {
     for (int r = 0; r < kRepeats / 4; ++r) {
       for (const JointAngles& angles : poses) {
         sink += principal_compliances(translational_compliance(robot_pose(robot, angles), compliance))[0];
@@ -107,7 +95,7 @@ int main() {
     }
   });
   print_rate("compliance with principal stiffnesses, from joint angles", solves / 4, pose_time);
-  const double arm_time = seconds([&] {
+  const double arm_time = least_seconds([&] {
     ArmLanes lanes;
     double entries[6][kArms];
     solve_arms(inverse.constants(), targets[0], lanes);
@@ -132,7 +120,7 @@ int main() {
   KDL::ChainJntToJacSolver jacobian_solver(chain);
   int found = 0;
   constexpr int kKdlPoses = 300;
-  const double kdl_inverse = seconds([&] {
+  const double kdl_inverse = least_seconds([&] {
     found = 0;
     for (int i = 0; i < kKdlPoses; ++i) {
       KDL::Frame frame;
@@ -145,7 +133,7 @@ int main() {
   print_rate("Orocos KDL, ChainIkSolverPos_LMA: one solution, start 0.2 rad off", kKdlPoses, kdl_inverse);
   std::printf("    (%d of %d converged); ratio per target %.0f\n", found, kKdlPoses,
               kdl_inverse / kKdlPoses / (inverse_time / solves));
-  const double kdl_jacobian = seconds([&] {
+  const double kdl_jacobian = least_seconds([&] {
     KDL::Jacobian jacobian(kJoints);
     for (const JointAngles& angles : poses) {
       jacobian_solver.JntToJac(kdl_angles(angles), jacobian);
@@ -166,7 +154,7 @@ int main() {
     PoseTask task = tool_down(with_tool, 1.6, "combined", 2);
     task.x = task.y = {-2.8, 2.8, 281};
     long reached = 0;
-    const double map_time = seconds([&] {
+    const double map_time = least_seconds([&] {
       const PlaneScan scan = scan_plane(with_tool, task, 2);
       reached = (pose_map(with_tool, scan).branch.array() >= 0).count();
     });

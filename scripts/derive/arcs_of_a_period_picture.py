@@ -5,9 +5,8 @@ Four cutters over one period, by the rules of lib/milling/cutter.cc: a piece end
 leaves. Needs gnuplot.
 """
 import math
-import pathlib
-import subprocess
-import sys
+
+from pictures import draw
 
 DEGREES = 1e-9
 
@@ -98,11 +97,7 @@ for index, (title, period, bars, pieces) in enumerate(CASES):
     lines.append("plot -1 notitle")
     commands += lines
 
-output = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else
-                      pathlib.Path(__file__).resolve().parents[2] / "lib/milling/arcs_of_a_period.svg")
-subprocess.run(["gnuplot"], check=True, text=True, input=f"""
-set terminal svg size 800,720 font "Helvetica,13" background "white"
-set output "{output}"
+draw("lib/milling/arcs_of_a_period.svg", "800,720", f"""
 set multiplot layout {len(CASES)},1
 set lmargin 4; set rmargin 4; set tmargin 2
 set border 1; set tics nomirror; unset ytics

@@ -11,12 +11,11 @@ Prints the largest errors below 10 Hz and above, too. Needs gnuplot and mpmath.
 """
 import cmath
 import math
-import pathlib
-import subprocess
-import sys
 
 import mpmath
 from mpmath import mp, mpc, mpf
+
+from pictures import block, draw
 
 mp.dps = 40
 TOOL, STUB = 0.11892, 0.05090
@@ -115,12 +114,7 @@ for column, name in enumerate(["closed forms, eq. 6", "exact receptances rounded
     print(f"{name}: below 10 Hz {max(r[column] for r in rows if r[0] < 10):.1e}, "
           f"above {max(r[column] for r in rows if r[0] >= 10):.1e}")
 
-output = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else
-                      pathlib.Path(__file__).resolve().parents[2] / "lib/receptance/coupling_error.svg")
-data = "$error << EOD\n" + "\n".join(" ".join(f"{v:.3g}" for v in row) for row in rows) + "\nEOD\n"
-subprocess.run(["gnuplot"], check=True, text=True, input=f"""{data}
-set terminal svg size 760,420 font "Helvetica,13" background "white"
-set output "{output}"
+draw("lib/receptance/coupling_error.svg", "760,420", f"""{block("error", rows, 3)}
 set logscale xy
 set xrange [1:20000]
 set yrange [1e-17:1e-6]

@@ -7,10 +7,8 @@ the true ratio to them. Points: for k1 on a grid the k2 (with its own c2) that t
 lib/receptance/joint_starts gives for it, once begun soft and once stiff. Needs gnuplot.
 """
 import math
-import pathlib
-import subprocess
-import sys
 
+from pictures import block, draw
 from liu_example import fixed_free, free_free
 
 TRUE = (5e7, 200.0, 5e4, 0.5)
@@ -77,8 +75,8 @@ for i in range(CELLS):
     for j in range(CELLS):
         k1, k2 = at(ACROSS, i, CELLS), at(UP, j, CELLS)
         value = misfit((k1, tangents[0] * k1, k2, tangents[1] * k2))
-        grid.append(f"{math.log10(k1):.4g} {math.log10(k2):.4g} {math.log10(max(value, 1e-3)):.3g}")
-    grid.append("")
+        grid.append((math.log10(k1), math.log10(k2), math.log10(max(value, 1e-3))))
+    grid.append(())
 scan = []
 for i in range(57):
     k1 = at(ACROSS, i, 57)
@@ -86,13 +84,8 @@ for i in range(57):
         k2, _ = second_solved(k1, tangents[0] * k1, begin)
         scan.append((math.log10(k1), math.log10(min(max(k2, 10 ** UP[0]), 10 ** UP[1]))))
 
-output = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else
-                      pathlib.Path(__file__).resolve().parents[2] / "lib/receptance/joint_landscape.svg")
-data = ("$grid << EOD\n" + "\n".join(grid) + "\nEOD\n$scan << EOD\n" + "\n".join(f"{x:.4g} {y:.4g}" for x, y in scan) +
-        f"\nEOD\n$truth << EOD\n{math.log10(TRUE[0]):.4g} {math.log10(TRUE[2]):.4g}\nEOD\n")
-subprocess.run(["gnuplot"], check=True, text=True, input=f"""{data}
-set terminal svg size 760,520 font "Helvetica,13" background "white"
-set output "{output}"
+data = block("grid", grid, 4) + block("scan", scan, 4) + block("truth", [(math.log10(TRUE[0]), math.log10(TRUE[2]))], 4)
+draw("lib/receptance/joint_landscape.svg", "760,520", f"""{data}
 set xrange [{ACROSS[0]}:{ACROSS[1]}]
 set yrange [{UP[0]}:{UP[1]}]
 set cbrange [-2:0.5]

@@ -7,9 +7,8 @@ straight lines over the depth, while the multipliers have a square root where th
 """
 import cmath
 import math
-import pathlib
-import subprocess
-import sys
+
+from pictures import block, draw
 
 OMEGA, ZETA, WAVES, NODES = 2 * math.pi * 922, 0.011, 2.43, 8  # WAVES of the mode in a period
 DEEPEST = 0.14
@@ -29,27 +28,19 @@ def multipliers(depth):
     return total / 2 + root, total / 2 - root
 
 
-def rows(name, points):
-    return f"${name} << EOD\n" + "\n".join(" ".join(f"{v:.6g}" for v in point) for point in points) + "\nEOD\n"
-
-
 meeting = next(d / 1e5 for d in range(int(DEEPEST * 1e5)) if multipliers(d / 1e5)[0].imag == 0)
 fine = sorted([DEEPEST * i / 200 for i in range(201)] + [meeting + (i / 20)**2 * 0.01 for i in range(21)])
 nodes = [DEEPEST * (1 - math.cos(math.pi * (i + 0.5) / NODES)) / 2 for i in range(NODES)]
 flip = next(d for d in fine if min(m.real for m in multipliers(d)) < -1)
 
-data = rows("pair", [(d, multipliers(d)[0].real, abs(multipliers(d)[0])) for d in fine if d < meeting])
-data += rows("real", [(d, multipliers(d)[0].real, multipliers(d)[1].real) for d in fine if d >= meeting])
-data += rows("both", [(d, *sum_and_product(d)) for d in fine])
-data += rows("complex_nodes", [(d, multipliers(d)[0].real, abs(multipliers(d)[0])) for d in nodes if d < meeting])
-data += rows("real_nodes", [(d, multipliers(d)[0].real, multipliers(d)[1].real) for d in nodes if d >= meeting])
-data += rows("both_nodes", [(d, *sum_and_product(d)) for d in nodes])
+data = block("pair", [(d, multipliers(d)[0].real, abs(multipliers(d)[0])) for d in fine if d < meeting])
+data += block("real", [(d, multipliers(d)[0].real, multipliers(d)[1].real) for d in fine if d >= meeting])
+data += block("both", [(d, *sum_and_product(d)) for d in fine])
+data += block("complex_nodes", [(d, multipliers(d)[0].real, abs(multipliers(d)[0])) for d in nodes if d < meeting])
+data += block("real_nodes", [(d, multipliers(d)[0].real, multipliers(d)[1].real) for d in nodes if d >= meeting])
+data += block("both_nodes", [(d, *sum_and_product(d)) for d in nodes])
 
-output = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else
-                      pathlib.Path(__file__).resolve().parents[2] / "lib/milling/multipliers_meet.svg")
-subprocess.run(["gnuplot"], check=True, text=True, input=f"""{data}
-set terminal svg size 760,640 font "Helvetica,13" background "white"
-set output "{output}"
+draw("lib/milling/multipliers_meet.svg", "760,640", f"""{data}
 set multiplot layout 2,1
 set xrange [0:{DEEPEST}]
 set lmargin 11; set rmargin 4

@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 """receptance_chain_picture.py [FILE]: lib/receptance/chain.svg, the parts of an assembly and the names of their ends."""
-import pathlib
-import sys
+from pictures import output_path
 
 INK, STEEL, CARBIDE, GREY, RED, BLUE = "#222222", "#d9dde3", "#c3cbd6", "#777777", "#c0392b", "#1f5fa8"
 AXIS = 150  # height of the tool's axis
@@ -77,9 +76,7 @@ text(375, 266, "joint: Kc", RED, 13)
 text(375, 282, "opening g", RED, 13)
 text(510, 300, "holder: H (at its face)", INK, 13)
 
-output = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else
-                      pathlib.Path(__file__).resolve().parents[2] / "lib/receptance/chain.svg")
-output.write_text(f"""<svg xmlns="http://www.w3.org/2000/svg" viewBox="-20 40 790 275" width="790" height="275" font-family="Helvetica, Arial, sans-serif">
+output_path("lib/receptance/chain.svg").write_text(f"""<svg xmlns="http://www.w3.org/2000/svg" viewBox="-20 40 790 275" width="790" height="275" font-family="Helvetica, Arial, sans-serif">
 <defs><marker id="head" markerWidth="9" markerHeight="8" refX="7" refY="4" orient="auto"><path d="M0,0 L9,4 L0,8 z" fill="{INK}"/></marker></defs>
 <rect x="-20" y="40" width="790" height="275" fill="white"/>
 """ + "\n".join(shapes) + "\n</svg>\n")

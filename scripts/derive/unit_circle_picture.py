@@ -8,10 +8,8 @@ of one_mode_limits.py. Needs gnuplot.
 """
 import cmath
 import math
-import pathlib
-import subprocess
-import sys
 
+from pictures import block, draw
 from one_mode_limits import Cut
 
 SPEED, LIMIT, POINTS = 12000, 2.14931, 20  # rpm; mm: flip; Gauss points
@@ -45,10 +43,6 @@ def eigenvalues(matrix):
     return sorted(found, key=abs, reverse=True)
 
 
-def rows(name, points):
-    return f"${name} << EOD\n" + "\n".join(" ".join(f"{v:.5g}" for v in point) for point in points) + "\nEOD\n"
-
-
 cut = Cut(SPEED, 0.0, math.pi, 1, POINTS)
 # Finer towards the angle of the mode's own multiplier, where everything moves fast.
 mode = abs(cmath.phase(cut.multiplier[0]))
@@ -56,20 +50,16 @@ phis = sorted([math.pi * (i + 0.02) / STEPS for i in range(STEPS)] + [math.pi] +
               [mode + 0.2 * math.sinh(i / 4) / math.sinh(5) for i in range(-20, 21)])
 phis = [phi for phi in phis if 0 < phi <= math.pi]
 loci = [[value * 1e-3 for value in eigenvalues(cut.operator(phi))[:SHOWN]] for phi in phis]
-data = rows("loci", [(value.real, value.imag) for values in loci for value in values])
-data += rows("flip", [(value.real, value.imag) for value in loci[-1]])
+data = block("loci", [(value.real, value.imag) for values in loci for value in values])
+data += block("flip", [(value.real, value.imag) for value in loci[-1]])
 
 
 for name, depth in (("shallow", SHALLOW), ("deep", DEEP)):
     curve = [cut.determinant(depth * 1e-3, phi) for phi in phis]
-    data += rows(name, [(v.real, v.imag) for v in curve] + [(v.real, -v.imag) for v in reversed(curve)])
+    data += block(name, [(v.real, v.imag) for v in curve] + [(v.real, -v.imag) for v in reversed(curve)])
 print("unstable multipliers at the two depths:", cut.unstable(SHALLOW * 1e-3), cut.unstable(DEEP * 1e-3))
 
-output = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else
-                      pathlib.Path(__file__).resolve().parents[2] / "lib/milling/unit_circle.svg")
-subprocess.run(["gnuplot"], check=True, text=True, input=f"""{data}
-set terminal svg size 900,470 font "Helvetica,13" background "white"
-set output "{output}"
+draw("lib/milling/unit_circle.svg", "900,470", f"""{data}
 set multiplot layout 1,2
 set grid lc rgb "#dddddd"
 set zeroaxis lc rgb "#888888"

@@ -3,33 +3,23 @@
 #include <catch2/catch.hpp>
 #include <complex>
 
-#include "document/text/data_error.h"
+#include "document/measured/reader_fixtures_test.h"
 
 using namespace stablecut;
 using namespace stablecut::document;
+using namespace stablecut::document::fixtures;
 using Complex = std::complex<double>;
 
 namespace {
 
 dynamics::FrequencyResponse read(const std::string& text, const FrfChoice& choice = {}) {
-  std::vector<Remark> remarks;
-  return frf_from_columns({"f", text}, choice, remarks);
+  return read_by(frf_from_columns, text, choice);
 }
-
 Remark only_remark(const std::string& text, const FrfChoice& choice = {}) {
-  std::vector<Remark> remarks;
-  frf_from_columns({"f", text}, choice, remarks);
-  REQUIRE(remarks.size() == 1);
-  return remarks[0];
+  return only_remark_by(frf_from_columns, text, choice);
 }
-
 std::string complaint(const std::string& text, const FrfChoice& choice = {}) {
-  try {
-    read(text, choice);
-  } catch (const DataError& error) {
-    return error.what();
-  }
-  return "";
+  return complaint_by(frf_from_columns, text, choice);
 }
 
 }  // namespace

@@ -1,0 +1,26 @@
+"""Shared by the scripts of this folder that draw a picture: where it goes, and gnuplot."""
+import pathlib
+import subprocess
+import sys
+
+
+def output_path(usual):
+    """The path given to the script, or the picture's place in the project (`usual`, from the project's root)."""
+    if len(sys.argv) > 1:
+        return pathlib.Path(sys.argv[1])
+    return pathlib.Path(__file__).resolve().parents[2] / usual
+
+
+def block(name, points, digits=5):
+    """Rows of numbers as a data block $name of gnuplot's; an empty row separates scans."""
+    lines = (" ".join(f"{value:.{digits}g}" for value in point) for point in points)
+    return f"${name} << EOD\n" + "\n".join(lines) + "\nEOD\n"
+
+
+def draw(usual, size, commands):
+    """A picture of that size ("760,420") by gnuplot's commands."""
+    subprocess.run(["gnuplot"], check=True, text=True, input=f"""
+set terminal svg size {size} font "Helvetica,13" background "white"
+set output "{output_path(usual)}"
+{commands}
+""")
