@@ -71,8 +71,7 @@ std::string words_of(const modal::TapFinding& finding) {
     case modal::TapFindingKind::kDrift:
       return "below " + number(finding.hi_hz) + " Hz " + name +
              " rises towards 0 Hz as no structure does (noise, or an imaginary part above 0): integrated "
-             "drift of "
-             "the sensor; modes found there are not the structure's (--band)";
+             "drift of the sensor; modes found there are not the structure's (--band)";
     case modal::TapFindingKind::kNoiseAtHighEnd:
       return "above " + number(finding.lo_hz) + " Hz " + name +
              " is within 10 dB of its noise: these lines add little but computing time (--band)";
@@ -98,8 +97,7 @@ std::string words_of(const modal::TapFinding& finding) {
       return "cross entries differ from their mirror images by " + percent_text(finding.most) +
              ", noise alone would by " + percent_text(finding.least) +
              ": not reciprocal, as a controlled robot is, or taps at other places than the sensor's; the "
-             "modes "
-             "follow what was measured";
+             "modes follow what was measured";
     case modal::TapFindingKind::kPoorCoherence:
       return poor_coherence(finding);
     case modal::TapFindingKind::kSoft:

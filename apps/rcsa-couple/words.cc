@@ -24,11 +24,12 @@ std::string limits_text(const receptance::HolderQuality& quality, std::size_t li
         (quality.second_difference ? "" : ", and slopes per moment as l n / h, exact for one mode only"));
   }
   if (!quality.noisy_hz.empty())
-    add("the deflection per moment lies below three standard deviations of its noise on " +
-        list_of_lines(quality.noisy_hz, lines));
+    add("the deflection per moment lies below " + number_text(receptance::kNoisyDeviations) +
+        " standard deviations of its noise on " + list_of_lines(quality.noisy_hz, lines));
   if (!quality.unphysical_hz.empty())
     add("not passive on " + list_of_lines(quality.unphysical_hz, lines) +
-        ": it would give energy to whatever loads it, by more than 5 % of its receptance");
+        ": it would give energy to whatever loads it, by more than " +
+        percent_text(receptance::kPassiveShare) + " of its receptance");
   return text;
 }
 

@@ -20,8 +20,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kNoisyDeviations = 3;   // standard deviations below which l counts as noise
-constexpr double kPassiveShare = 0.05;   // of the receptance: energy that it may give away unremarked
 constexpr std::size_t kDirectPairs = 3;  // unknowns of a symmetric 2 x 2 block
 constexpr std::size_t kCrossPairs = 4;   // unknowns of any 2 x 2 block
 

@@ -25,15 +25,19 @@ enum class SlopeSource {
   kArtefact,          ///< from three or more pairs of places on a known part; no difference is taken
 };
 
+/// Standard deviations of its noise below which l counts as noisy.
+inline constexpr double kNoisyDeviations = 3;
+/// Of the receptance: the energy that a load may draw from the holder unremarked.
+inline constexpr double kPassiveShare = 0.05;
+
 /// What is known of the quality of one direction.
 struct HolderQuality {
   bool measured = false;  ///< there are entries in this direction
   SlopeSource slopes = SlopeSource::kMeasured;
   double spacing_m = 0;               ///< S of a finite difference
   bool second_difference = false;     ///< p = (h(0,0) - h(0,S) - h(S,0) + h(S,S)) / S^2; else p = l n / h
-  std::vector<double> noisy_hz;       ///< lines on which |l| is below three standard deviations of its noise
-  std::vector<double> unphysical_hz;  ///< lines on which a load would draw energy from the holder, by more
-                                      ///< than 5 % of the receptance
+  std::vector<double> noisy_hz;       ///< lines on which |l| is below kNoisyDeviations of its noise
+  std::vector<double> unphysical_hz;  ///< lines on which a load would draw more than kPassiveShare
 
   /// Whether there is something to say: a difference was taken, or lines are noisy or unphysical.
   bool limited() const {
