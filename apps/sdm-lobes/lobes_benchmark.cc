@@ -103,8 +103,23 @@ void the_thesis_case(const Case& thesis) {
   std::printf(
       "  semi-discretization, m = 40, 110 rows, Eigen's dense solver per point: %.0f us, ratio %.0f\n",
       1e6 * baseline / sampled, baseline / sampled / (grid / points));
-  std::printf("  crossings alone: one thread %.3f s, %d threads %.3f s\n", thesis.time(false), threads,
-              thesis.time(false, threads));
+  const double alone = thesis.time(false);
+  // Limits by a scan over the depths, as a grid would find them.
+  const double scanned = least_seconds([&] {
+    for (const double speed : thesis.speeds) {
+      const auto period =
+          milling::prepare_period(thesis.structure, thesis.cutter, speed, {}, thesis.depths.back());
+      sink +=
+          static_cast<double>(milling::scanned_limits(period, thesis.depths.back(), 1e-3).crossings.size());
+    }
+  });
+  std::printf(
+      "  limits alone: one thread %.3f s, %d threads %.3f s; by a scan over the depths %.1f times as much\n",
+      alone, threads, thesis.time(false, threads), scanned / alone);
+  Case deep = thesis, shallow = thesis;
+  deep.depths = {0, 20e-3};
+  shallow.depths = {0, 0.5e-3};
+  std::printf("  limits up to 20 mm, of up to 0.5 mm: %.2f\n", deep.time(false) / shallow.time(false));
 }
 
 void one_mode(const Case& thesis, const dynamics::ModalModel& table) {
@@ -136,18 +151,32 @@ void scaling(const Case& thesis, const dynamics::ModalModel& table) {
   }
   const Case sixty{milling::tip_structure(many), thesis.cutter, speeds_of({5000, 20000, 10}), thesis.depths};
   const Case fifteen{thesis.structure, thesis.cutter, sixty.speeds, thesis.depths};
-  std::printf("cost of 60 modes, of 15: %.1f\n", sixty.time(true) / fifteen.time(true));
+  std::printf("cost of 60 modes, of 15: grid %.1f, limits %.1f\n", sixty.time(true) / fifteen.time(true),
+              sixty.time(false) / fifteen.time(false));
 }
 
 void real_cutters(const Case& thesis) {
   const Case straight{thesis.structure, thesis.cutter, speeds_of({5000, 20000, 10}), thesis.depths};
-  const double base = straight.time(true);
+  const auto ratios = [&](const char* what, const Case& other, const Case& plain) {
+    std::printf("cost of %s, of the plain cutter: grid %.1f, limits %.1f\n", what,
+                other.time(true) / plain.time(true), other.time(false) / plain.time(false));
+  };
   Case other = straight;
   other.cutter.pitch_rad = {kTwoPi * 170 / 360, kTwoPi * 190 / 360};
-  std::printf("cost of unequal pitch %.1f", other.time(true) / base);
+  ratios("unequal pitch, two teeth", other, straight);
   other.cutter.pitch_rad.clear();
   other.cutter.lag_rad_per_m = 2 * std::tan(radians_from_degrees(30)) / 0.012;
-  std::printf(", of a helix %.1f of the plain cutter\n", other.time(true) / base);
+  ratios("a helix", other, straight);
+  Case slot = straight;
+  slot.speeds.resize(3);
+  slot.depths = {0, 1e-3};
+  slot.cutter.teeth = 4;
+  milling::set_immersion(slot.cutter, true, 1);
+  other = slot;
+  other.cutter.pitch_rad = {kTwoPi * 70 / 360, kTwoPi * 110 / 360, kTwoPi * 85 / 360, kTwoPi * 95 / 360};
+  ratios("unequal pitch, four teeth in a slot", other, slot);
+  other.cutter.pitch_rad = {kTwoPi * 70 / 360, kTwoPi * 110 / 360, kTwoPi * 70 / 360, kTwoPi * 110 / 360};
+  ratios("70-110-70-110 in a slot", other, slot);
 }
 
 void eigenvalue_solvers(const Case& thesis) {

@@ -12,6 +12,7 @@
 #include "document/kinds/lobes_json.h"
 #include "document/kinds/modal_table_json.h"
 #include "document/text/data_error.h"
+#include "milling/envelope.h"
 #include "options.h"
 
 namespace stablecut {
@@ -22,7 +23,7 @@ constexpr Range kDefaultSpeed{2000, 20000, document::kDefaultChartCount};
 constexpr Range kDefaultDepth{0, 5, document::kDefaultChartCount};
 
 // An estimated error of the spectral radius from which on there is a warning.
-constexpr double kSuspectError = 1e-6;
+constexpr double kSuspectError = 2e-5;
 
 class SdmLobes : public cli::Tool {
  public:
@@ -35,6 +36,8 @@ class SdmLobes : public cli::Tool {
 
  private:
   void setup(CLI::App& app) override {
+    not_in_provenance(app.add_option("MORE", more_tables_,
+                                     "Further modal tables (poses, tools): what is stable for all of them"));
     cli::begin_group(app, "The cut (--cut, or the five others)");
     add_file_option(app, "--cut", cut_.path, "Cut document: cutter, cutting coefficients, engagement, chart");
     cut_.declare(app);
@@ -84,7 +87,8 @@ class SdmLobes : public cli::Tool {
     const document::Input table = read_main_input(cli::InputForm::kJson);
     const dynamics::ModalModel all_modes = document::modal_table_from_json(table.document, table.source);
     const dynamics::ModalModel model = modes_.model(all_modes, table.source.name);
-    const milling::TipStructure structure = structure_of(model, table.source);
+    std::vector<milling::TipStructure> structures = {
+        structure_of(model, table.source, [this](const std::string& text) { warn(text); })};
     const milling::Cutter& cutter = cut_.cut().cutter;
 
     document::LobesDocument lobes;
@@ -92,6 +96,7 @@ class SdmLobes : public cli::Tool {
                                      : milling::StabilityMethod::kSpectral,
                     intervals_.value_or(milling::StabilityScheme{}.intervals)};
     lobes.samples = samples_.value_or(0);
+    read_more_tables(table.source.name, structures, lobes);
     set_axes(lobes);
     read_points(lobes);
     // A part belongs to this table, and to the options that choose from it.
@@ -101,7 +106,7 @@ class SdmLobes : public cli::Tool {
 
     const ChartAxes axes(lobes);
     if (parts_.paths.empty()) {
-      compute_chart(structure, axes, lobes);
+      compute_chart(structures, axes, lobes);
       if (samples_) compute_samples(model, axes, lobes);
     } else {
       std::vector<document::Input> parts;
@@ -114,25 +119,19 @@ class SdmLobes : public cli::Tool {
           all_modes, modes_.chosen(all_modes, table.source.name), cutter, axes.revolutions_per_s,
           axes.depths_m, lobes.scheme, threads(), [&](double share) { bar.show(share); });
     }
-    lobes.judged_cuts = milling::judged_cuts(document::tested_cuts(lobes.measured_cuts), structure, cutter,
+    lobes.judged_cuts = milling::judged_cuts(document::tested_cuts(lobes.measured_cuts), structures, cutter,
                                              lobes.scheme, threads());
     if (!parts_.shard)
       lobes.what_to_run =
-          milling::what_to_run(structure, cutter, written_limits(lobes, axes), request, threads());
+          milling::what_to_run(structures, cutter, written_limits(lobes, axes), request, threads());
     warn_if_not_converged(lobes);
     write_document(main_output(), document::lobes_to_json(lobes));
   }
 
-  // The chart's speeds and depths in the units of the numeric rooms.
-  struct ChartAxes {
-    std::vector<double> revolutions_per_s, depths_m;
-    explicit ChartAxes(const document::LobesDocument& lobes) {
-      for (const double rpm : lobes.speed_rpm) revolutions_per_s.push_back(revolutions_per_s_from_rpm(rpm));
-      for (const double mm : lobes.depth_mm) depths_m.push_back(metres_from_mm(mm));
-    }
-  };
-
   void check_usage() const {
+    cli::refuse_if(!more_tables_.empty() &&
+                       (samples_ || per_mode_ || modes_.given() || parts_.shard || !parts_.paths.empty()),
+                   "--samples, --per-mode, --modes, --shard, --merge: expected with one modal table only");
     cli::refuse_if(intervals_ && method_ != "sdm", "--intervals: expected with --method sdm only");
     cli::refuse_if(samples_ && method_ == "sdm", "--samples: expected with --method spectral only");
     cli::refuse_if(seed_ && !samples_, "--seed: expected with --samples only");
@@ -149,23 +148,16 @@ class SdmLobes : public cli::Tool {
                    "--method: sdm: expected straight teeth of equal pitch without process damping");
   }
 
-  milling::TipStructure structure_of(const dynamics::ModalModel& model,
-                                     const document::Source& source) const {
-    if (model.dof("x") < 0 && model.dof("y") < 0) {
-      throw document::DataError(source.name, "/dofs", document::Json(model.dofs).dump(),
-                                "expected x, y or both");
+  void read_more_tables(const std::string& first, std::vector<milling::TipStructure>& structures,
+                        document::LobesDocument& lobes) {
+    if (more_tables_.empty()) return;
+    lobes.tables = {first};
+    for (const std::string& path : more_tables_) {
+      const document::Input table = read_input(path, cli::InputForm::kJson);
+      structures.push_back(structure_of(document::modal_table_from_json(table.document, table.source),
+                                        table.source, [this](const std::string& text) { warn(text); }));
+      lobes.tables.push_back(table.source.name);
     }
-    milling::TipStructure structure = milling::tip_structure(model);
-    if (structure.modes() == 0) {
-      throw document::DataError(
-          source.name, "/modes", "",
-          "expected at least one mode that a force in x or y drives and that moves x or y");
-    }
-    for (const std::string& dof : model.dofs) {
-      if (dof != "x" && dof != "y")
-        warn(source.name + ": /dofs: \"" + dof + "\": left out: only x and y take part in chatter here");
-    }
-    return structure;
   }
 
   void set_axes(document::LobesDocument& lobes) const {
@@ -186,12 +178,16 @@ class SdmLobes : public cli::Tool {
     lobes.measured_cuts = document::measured_cuts(points.source, points.document);
   }
 
-  void compute_chart(const milling::TipStructure& structure, const ChartAxes& axes,
+  void compute_chart(const std::vector<milling::TipStructure>& structures, const ChartAxes& axes,
                      document::LobesDocument& lobes) {
-    cli::ProgressBar bar("sdm-lobes: chart", !quiet());
-    lobes.chart = milling::stability_chart(structure, cut_.cut().cutter, axes.revolutions_per_s,
-                                           axes.depths_m, lobes.scheme, !limit_only_, threads(),
-                                           [&](double share) { bar.show(share); });
+    std::vector<milling::StabilityChart> charts;
+    for (const milling::TipStructure& structure : structures) {
+      cli::ProgressBar bar("sdm-lobes: chart", !quiet());
+      charts.push_back(milling::stability_chart(structure, cut_.cut().cutter, axes.revolutions_per_s,
+                                                axes.depths_m, lobes.scheme, !limit_only_, threads(),
+                                                [&](double share) { bar.show(share); }));
+    }
+    lobes.chart = milling::envelope_of(charts);
     modes_.name_as_in_table(lobes.chart);
   }
 
@@ -221,6 +217,13 @@ class SdmLobes : public cli::Tool {
   }
 
   void warn_if_not_converged(const document::LobesDocument& lobes) const {
+    const std::vector<std::string>& failure = lobes.chart.failure;
+    const auto first =
+        std::find_if(failure.begin(), failure.end(), [](const std::string& f) { return !f.empty(); });
+    if (first != failure.end())
+      warn(*first + advice(Remedy::kModes) + "; speeds without a limit: " +
+           std::to_string(
+               std::count_if(first, failure.end(), [](const std::string& f) { return !f.empty(); })));
     if (lobes.scheme.method == milling::StabilityMethod::kSpectral && lobes.convergence() > kSuspectError)
       warn("the spectral radius has converged only to " + number_text(lobes.convergence()) +
            " (see /convergence)");
@@ -234,6 +237,7 @@ class SdmLobes : public cli::Tool {
   std::optional<int> intervals_, samples_, seed_;
   bool per_mode_ = false, limit_only_ = false;
   std::string points_path_;
+  std::vector<std::string> more_tables_;
   PartOptions parts_;
 };
 

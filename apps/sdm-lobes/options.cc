@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/units.h"
 #include "cli/exit_status.h"
 #include "document/text/data_error.h"
 
@@ -105,6 +106,30 @@ void ModeOptions::name_as_in_table(milling::StabilityChart& chart) const {
     for (milling::StabilityCrossing& crossing : crossings)
       crossing.mode = static_cast<std::size_t>((*listed_)[crossing.mode] - 1);
   }
+}
+
+ChartAxes::ChartAxes(const document::LobesDocument& lobes) {
+  for (const double rpm : lobes.speed_rpm) revolutions_per_s.push_back(revolutions_per_s_from_rpm(rpm));
+  for (const double mm : lobes.depth_mm) depths_m.push_back(metres_from_mm(mm));
+}
+
+milling::TipStructure structure_of(const dynamics::ModalModel& model, const document::Source& source,
+                                   const std::function<void(const std::string&)>& warn) {
+  if (model.dof("x") < 0 && model.dof("y") < 0) {
+    throw document::DataError(source.name, "/dofs", document::Json(model.dofs).dump(),
+                              "expected x, y or both");
+  }
+  milling::TipStructure structure = milling::tip_structure(model);
+  if (structure.modes() == 0) {
+    throw document::DataError(
+        source.name, "/modes", "",
+        "expected at least one mode that a force in x or y drives and that moves x or y");
+  }
+  for (const std::string& dof : model.dofs) {
+    if (dof != "x" && dof != "y")
+      warn(source.name + ": /dofs: \"" + dof + "\": left out: only x and y take part in chatter here");
+  }
+  return structure;
 }
 
 void RunOptions::declare(CLI::App& app) {

@@ -48,6 +48,7 @@ class CutOptions {
 class ModeOptions {
  public:
   void declare(CLI::App& app);
+  bool given() const { return listed_.has_value(); }
   /// 1-based; empty: all.
   std::vector<int> listed() const { return listed_.value_or(std::vector<int>{}); }
   /// Indices in the table. Throws WrongUsage for one that it does not have.
@@ -60,6 +61,17 @@ class ModeOptions {
  private:
   std::optional<std::vector<int>> listed_;
 };
+
+/// A chart's speeds and depths in the units of the numeric rooms.
+struct ChartAxes {
+  std::vector<double> revolutions_per_s, depths_m;
+  explicit ChartAxes(const document::LobesDocument& lobes);
+};
+
+/// The structure of a table's modes. Throws DataError where it has none that can chatter; `warn` gets what is
+/// left out.
+milling::TipStructure structure_of(const dynamics::ModalModel& model, const document::Source& source,
+                                   const std::function<void(const std::string&)>& warn);
 
 /// What is asked of the best points.
 class RunOptions {

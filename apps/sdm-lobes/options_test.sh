@@ -49,10 +49,34 @@ check_jq "every limit is the lowest crossing" one.json '. as $d | [.limit[] | se
 check_jq "what drives a lobe" one.json '[.crossings[]] | length > 0 and all(.mode >= 1 and .mode <= 15 and .participation > 0.1
   and .lobe == (.chatter_frequency_hz * 60 / (2 * .speed_rpm) | floor))'
 
+jq '.modes |= .[:8]' "$table" >soft.json
+sdm-lobes soft.json "$table" --cut "$cut" "${small[@]}" -o both.json
+sdm-lobes soft.json --cut "$cut" "${small[@]}" -o soft-out.json
+check_jq "several tables: the lowest limit, and whose it is" both.json '.tables == ["soft.json", $name]
+  and ([.limit, $one[0].limit, $soft[0].limit] | transpose | all(.[0].depth_mm == ([.[1].depth_mm, .[2].depth_mm | select(.)] | min)
+    and (.[0].depth_mm == null or (.[0].table == 2) == (.[0].depth_mm == .[1].depth_mm))))' \
+  --arg name "$table" --slurpfile one one.json --slurpfile soft soft-out.json
+check_jq "several tables: the largest radius" both.json '[.spectral_radius, $one[0].spectral_radius, $soft[0].spectral_radius]
+  | map(flatten) | transpose | all(.[0] == ([.[1], .[2]] | max))' --slurpfile one one.json --slurpfile soft soft-out.json
+refused 64 "^sdm-lobes: .*expected with one modal table only" sdm-lobes soft.json "$table" --cut "$cut" --per-mode
+
+# A mode of 100 kHz turns too often in one cut at low speed.
+jq '.modes = [.modes[14] | .frequency_hz = 1e5]' "$table" >fast.json
+sdm-lobes fast.json --cut "$cut" --speed 600:40600:3 --depth 0:2:3 -o part.json 2>part.err
+check_jq "a speed that cannot be resolved is unknown, and the others are there" part.json '(.limit | length == 3)
+  and (.limit[0] | has("not_resolved") and .depth_mm == null) and (.limit[1:] | all(has("not_resolved") | not))
+  and (.spectral_radius | all(.[0] == null and .[1] > 0))'
+check "and there is a warning" grep -q "at 600 rpm the fastest mode turns too often.*without a limit: 1" part.err
+refused 1 "at 600 rpm the fastest mode turns too often" sdm-lobes fast.json --cut "$cut" --speed 600:700:2 -o none.json
+
 jq '.feed_per_tooth_mm = 0.05' "$cut" >feed.json
 sdm-lobes "$table" --cut feed.json --speed 8000:20000:61 --depth 0:3:2 --limit-only -o run.json
 check_jq "stable at every speed: below the whole curve" run.json '. as $d | .what_to_run.unconditional.depth_mm
   | . > 0 and . <= ([$d.limit[].depth_mm | select(.)] | min)'
+check_jq "stable at every speed is the lowest of the drawn curve" run.json '.what_to_run as $w | $w.unconditional.depth_mm
+  == ([.limit[].depth_mm, $w.limit_between[].depth_mm | select(.)] | min)'
+check_jq "a best point at the chart's edge says so" run.json '. as $d | .what_to_run.best | all((.at_chart_edge == true)
+  == (.speed_rpm * 1.02 > $d.speed_rpm[-1] or .speed_rpm * 0.98 < $d.speed_rpm[0]))'
 check_jq "best points: inside their margins, best first" run.json '. as $d | .what_to_run.best | length > 1
   and all(. as $p | $p.depth_mm <= 0.9 * ($p.limit_mm // 4) + 1e-12 and ($d.limit | all((.depth_mm // 4) >= $p.depth_mm
     or .speed_rpm <= ($p.slowest_rpm // 0) or .speed_rpm >= ($p.fastest_rpm // 1e9))))

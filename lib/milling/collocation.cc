@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "milling/arc_polynomials.h"
 #include "numerics/exponential_moments.h"
 #include "numerics/legendre.h"
 
@@ -19,14 +20,20 @@ using Complex = std::complex<double>;
 constexpr double kSameLength = 1e-12;
 // Kept off before the number of points is rounded up, so that pieces of one length have equally many.
 constexpr double kRoundingShare = 1e-6;
-// Points that a short piece has beside its share of the longest piece's.
+// Points that a short piece has beside its share of the longest one's.
 constexpr int kShortPiecePoints = 5;
+// Nodes beside those polynomials, or for each radian that the fastest mode turns in half of the longest
+// piece.
+constexpr int kSpareNodes = 4;
+constexpr double kNodesPerRadian = 0.6;
 
 // The Gauss points of pieces of one length, and how a mode responds to a force through them.
 struct PieceRule {
   double length_s;
   numerics::GaussRule rule;
   Eigen::MatrixXd transform;  // Legendre coefficients from values at the points
+  Eigen::VectorXd places;     // [points + 1] the points and the end
+  Eigen::MatrixXd legendre;   // [points + 1 x polynomials] there
 
   PieceRule(double length, int points)
       : length_s(length),
@@ -35,19 +42,26 @@ struct PieceRule {
 
   // [points]: the modal coordinate at a place in [-1, 1] of the piece, per force value at the points.
   Eigen::RowVectorXcd response(Complex lambda, double place) const {
-    const Eigen::VectorXcd moments =
-        numerics::exponential_moments(lambda * (length_s / 2), place, rule.node.size());
-    return (length_s / 2) * (moments.transpose() * transform);
+    const numerics::ExponentialMoments moments(lambda * (length_s / 2), rule.node.size());
+    return (length_s / 2) * (moments.at(place).transpose() * transform);
   }
 
   // [points + 1 x points]: the same at each point and at the end.
-  Eigen::MatrixXcd responses(Complex lambda) const {
+  Eigen::MatrixXcd responses(Complex lambda) {
     const Eigen::Index n = rule.node.size();
-    Eigen::MatrixXcd moments(n + 1, n);
-    for (Eigen::Index i = 0; i < n; ++i)
-      moments.row(i) = numerics::exponential_moments(lambda * (length_s / 2), rule.node[i], n).transpose();
-    moments.row(n) = numerics::exponential_moments(lambda * (length_s / 2), 1.0, n).transpose();
-    return (length_s / 2) * moments * transform;
+    const numerics::ExponentialMoments moments(lambda * (length_s / 2), n);
+    if (legendre.cols() < moments.legendre_count()) {
+      places.resize(n + 1);
+      places << rule.node, 1.0;
+      legendre.resize(n + 1, moments.legendre_count());
+      for (Eigen::Index i = 0; i <= n; ++i)
+        legendre.row(i) = numerics::legendre_values(places[i], legendre.cols()).transpose();
+    }
+    const Eigen::MatrixXcd at_places = moments.at(places, legendre);
+    Eigen::MatrixXcd result(n + 1, n);
+    result.real() = (length_s / 2) * at_places.real() * transform;
+    result.imag() = (length_s / 2) * at_places.imag() * transform;
+    return result;
   }
 };
 
@@ -87,6 +101,7 @@ class Builder {
         if (piece.damping) add_rows(piece.damping(turn), true);
       }
       placed.end_node = result_.nodes.size();
+      add_to_arc(piece, placed);
       placed.end_row = row_count();
       pieces_.push_back(placed);
     }
@@ -110,8 +125,8 @@ class Builder {
   // What the rows sense of the structure, and where it is at the period's end: exact sums over the modes.
   void add_responses() {
     const Eigen::Index states = 2 * structure_.modes();
-    sensed_of_state_.resize(row_count(), states);
-    sensed_of_drive_ = Eigen::MatrixXd::Zero(row_count(), row_count());
+    result_.sensed_of_state.resize(row_count(), states);
+    result_.sensed_of_drive = Eigen::MatrixXd::Zero(row_count(), row_count());
     result_.final_of_state = structure_.free_flight(period_s_);
     result_.final_of_drive.resize(states, row_count());
     std::vector<Eigen::MatrixXcd> responses;  // [rules]
@@ -120,7 +135,7 @@ class Builder {
       // Modes of one pole (those of a round tool in x and in y) respond alike.
       if (k == 0 || lambda != structure_.lambda[k - 1]) {
         responses.clear();
-        for (const PieceRule& rule : rules_) responses.push_back(rule.responses(lambda));
+        for (PieceRule& rule : rules_) responses.push_back(rule.responses(lambda));
       }
       set_mode(k);
       add_free_response(k);
@@ -135,13 +150,13 @@ class Builder {
   // The rows sense a displacement less the one that their surface keeps. One that was left in this period is
   // a response as well; what was left in the period before is remembered by the state.
   Collocation subtract_left_in_period() {
-    result_.difference_of_state = sensed_of_state_;
-    result_.difference_of_drive = sensed_of_drive_;
+    result_.difference_of_state = result_.sensed_of_state;
+    result_.difference_of_drive = result_.sensed_of_drive;
     for (Eigen::Index r = 0; r < row_count(); ++r) {
       const SensedRow& row = result_.rows[r];
       if (row.cut_by < 0 || row.remembered >= 0) continue;
-      result_.difference_of_state.row(r) -= sensed_of_state_.row(row.cut_by);
-      result_.difference_of_drive.row(r) -= sensed_of_drive_.row(row.cut_by);
+      result_.difference_of_state.row(r) -= result_.sensed_of_state.row(row.cut_by);
+      result_.difference_of_drive.row(r) -= result_.sensed_of_drive.row(row.cut_by);
     }
     return std::move(result_);
   }
@@ -164,6 +179,23 @@ class Builder {
     if (known != rules_.end()) return known - rules_.begin();
     rules_.emplace_back(length_s, points);
     return rules_.size() - 1;
+  }
+
+  void add_to_arc(const CutPiece& piece, const PlacedPiece& placed) {
+    // A schedule made by hand has no arcs: each piece is one.
+    const bool own = piece.arc_rad == 0;
+    const std::size_t index = own ? pieces_.size() : piece.arc;
+    if (result_.arcs.size() <= index) result_.arcs.resize(index + 1);
+    CollocationArc& arc = result_.arcs[index];
+    ++arc.pieces;
+    const numerics::GaussRule& rule = rules_[placed.rule].rule;
+    for (std::size_t node = placed.first_node; node < placed.end_node; ++node) {
+      const double along =
+          piece.along_rad +
+          (rule.node[static_cast<Eigen::Index>(node - placed.first_node)] + 1) / 2 * length_of(piece);
+      arc.nodes.push_back(node);
+      arc.place.push_back(2 * along / (own ? length_of(piece) : piece.arc_rad) - 1);
+    }
   }
 
   // Rows of the last node.
@@ -199,8 +231,8 @@ class Builder {
     for (Eigen::Index r = 0; r < row_count(); ++r) {
       const double time_s = result_.nodes[result_.rows[r].node].time_s;
       const Complex value = std::exp(structure_.lambda[k] * time_s) * observed_[r];
-      sensed_of_state_(r, k) = value.real();
-      sensed_of_state_(r, structure_.modes() + k) = -value.imag();
+      result_.sensed_of_state(r, k) = value.real();
+      result_.sensed_of_state(r, structure_.modes() + k) = -value.imag();
     }
   }
 
@@ -222,7 +254,7 @@ class Builder {
       }
       for (Eigen::Index row = node.first_row; row < node.end_row(); ++row) {
         for (Eigen::Index column = source.first_row; column < source.end_row; ++column)
-          sensed_of_drive_(row, column) +=
+          result_.sensed_of_drive(row, column) +=
               (at_node[point_of(column, source)] * observed_[row] * driven_[column]).real();
       }
     }
@@ -245,7 +277,7 @@ class Builder {
       if (!row.is_velocity) continue;
       const CollocationNode& node = result_.nodes[row.node];
       for (Eigen::Index column = node.first_row; column < node.end_row(); ++column)
-        sensed_of_drive_(r, column) += (observed_[r] / lambda * driven_[column]).real();
+        result_.sensed_of_drive(r, column) += (observed_[r] / lambda * driven_[column]).real();
     }
   }
 
@@ -259,19 +291,35 @@ class Builder {
   std::vector<PieceRule> rules_;
   std::vector<PlacedPiece> pieces_;
   Eigen::VectorXcd observed_, driven_;  // [rows], of one mode
-  Eigen::MatrixXd sensed_of_state_, sensed_of_drive_;
   Collocation result_;
 };
 
 }  // namespace
 
+double half_turn_of(double rad_per_s, const CutSchedule& schedule, double revolutions_per_s) {
+  double longest = 0;
+  for (const CutPiece& piece : schedule.pieces) longest = std::max(longest, piece.to_rad - piece.from_rad);
+  return rad_per_s * longest / (2 * kTwoPi * revolutions_per_s);
+}
+
 Collocation collocate(const TipStructure& structure, const CutSchedule& schedule, double revolutions_per_s,
-                      int points) {
+                      int points, Rows rows) {
+  bool along = rows == Rows::kByPolynomial && schedule.passes == 1;
+  for (std::size_t p = 0; p < schedule.pieces.size(); ++p)
+    along = along && schedule.pieces[p].cut_by == p && schedule.pieces[p].in_period_before &&
+            schedule.pieces[p].arc == p;
+  int nodes = points;
+  if (along) {
+    const double fastest = structure.lambda.imag().cwiseAbs().maxCoeff();
+    const double follow = kNodesPerRadian * half_turn_of(fastest, schedule, revolutions_per_s);
+    nodes = std::max(points, static_cast<int>(follow)) + kSpareNodes;
+  }
   Builder builder(structure, schedule, revolutions_per_s);
-  builder.place_nodes(points);
+  builder.place_nodes(nodes);
   builder.link_surfaces();
   builder.add_responses();
-  return builder.subtract_left_in_period();
+  Collocation by_node = builder.subtract_left_in_period();
+  return along ? along_arcs(by_node, points) : by_node;
 }
 
 }  // namespace stablecut::milling

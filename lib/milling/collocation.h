@@ -36,21 +36,56 @@ struct SensedRow {
   Eigen::Index remembered = -1;
 };
 
+/// Where a row is a polynomial along its arc instead of a node's value: which.
+struct RowPolynomial {
+  std::size_t arc = 0;
+  Eigen::Index degree = 0;
+};
+
+/// Consecutive pieces over which the force is the same tooth's, or the same teeth's, and bends only weakly.
+struct CollocationArc {
+  int pieces = 0;
+  std::vector<std::size_t> nodes;
+  std::vector<double> place;  ///< of each node, in [-1, 1] from the arc's beginning to its end
+};
+
 /// Responses of what the rows sense (differences d) and of the modal state q, at unit depth:
 ///   d = E q(0) + depth W d - (what u remembers),   q(T) = Phi q(0) + depth B d.
 struct Collocation {
   std::vector<CollocationNode> nodes;
   std::vector<SensedRow> rows;
   Eigen::Index remembered_count = 0;
+  std::vector<CollocationArc> arcs;
+  /// Where the rows are coefficients of polynomials: which, and the values at the nodes of all [sensed
+  /// numbers of all nodes x rows]. Empty where a row belongs to a node.
+  std::vector<RowPolynomial> polynomials;
+  Eigen::MatrixXd lift;
+  Eigen::MatrixXd sensed_of_state;      ///< [rows x 2 modes] E before the surface is subtracted
+  Eigen::MatrixXd sensed_of_drive;      ///< [rows x rows] W before the surface is subtracted
   Eigen::MatrixXd difference_of_state;  ///< E [rows x 2 modes]
   Eigen::MatrixXd difference_of_drive;  ///< W [rows x rows]
   Eigen::MatrixXd final_of_state;       ///< Phi [2 modes x 2 modes], free flight
   Eigen::MatrixXd final_of_drive;       ///< B [2 modes x rows]
 };
 
-/// `points` >= 1 on the longest piece, fewer on shorter ones. Throws InvalidArgument where a piece and the
-/// one that cut its surface differ in length.
+/// What the rows sense, at the nodes [sensed numbers of all nodes].
+inline Eigen::VectorXcd at_nodes(const Collocation& c, const Eigen::VectorXcd& sensed) {
+  return c.lift.size() > 0 ? Eigen::VectorXcd(c.lift * sensed) : sensed;
+}
+
+enum class Rows {
+  kByNode,  ///< `points` nodes on the longest piece, fewer on shorter ones
+  /// With equal pitch `points` polynomials on the longest arc, fewer on shorter ones, and as many nodes as it
+  /// takes: fewer rows for the same accuracy, but dearer to make. Else as kByNode.
+  kByPolynomial
+};
+
+/// `points` >= 1. Throws InvalidArgument
+/// where a piece and the one that cut its surface differ in length.
 Collocation collocate(const TipStructure& structure, const CutSchedule& schedule, double revolutions_per_s,
-                      int points);
+                      int points, Rows rows = Rows::kByPolynomial);
+
+/// The radians that a mode of that frequency turns in half of the longest piece.
+double half_turn_of(double rad_per_s, const CutSchedule& schedule, double revolutions_per_s);
 
 }  // namespace stablecut::milling

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/error.h"
 #include "base/units.h"
@@ -108,7 +109,7 @@ struct Pass {
 
   // A piece on which teeth are in cut whose tips are at the turn plus these angles.
   CutPiece piece(double from, double to, const std::vector<double>& teeth) const {
-    CutPiece piece{from, to, {}, {}, 0, true};
+    CutPiece piece{from, to, {}, {}, 0, true, 0, to - from, 0};
     const auto coefficients = [cutter = cutter, teeth, lag = lag_rad](const ForceCoefficients& k) {
       return [=](double turn) {
         std::vector<double> angles = teeth;
@@ -138,27 +139,40 @@ CutSchedule schedule_of_equal_pitch(const Pass& pass) {
       teeth.push_back(start + j * pitch);
     if (teeth.empty()) continue;
     CutPiece piece = pass.piece(ends[i] - start, ends[i + 1] - start, teeth);
-    piece.cut_by = schedule.pieces.size();
+    piece.cut_by = piece.arc = schedule.pieces.size();
     schedule.pieces.push_back(std::move(piece));
   }
   return schedule;
 }
 
+// The pitches up to where their pattern repeats, which is what a period has: 70, 110, 70, 110 is half a
+// revolution.
+std::vector<double> repeated(const std::vector<double>& pitch) {
+  for (std::size_t count = 1; count < pitch.size(); ++count) {
+    bool repeats = pitch.size() % count == 0;
+    for (std::size_t j = count; repeats && j < pitch.size(); ++j)
+      repeats = std::abs(pitch[j] - pitch[j - count]) < kSameAngle;
+    if (repeats) return {pitch.begin(), pitch.begin() + static_cast<std::ptrdiff_t>(count)};
+  }
+  return pitch;
+}
+
 CutSchedule schedule_of_unequal_pitch(const Pass& pass) {
-  const std::vector<double>& pitch = pass.cutter.pitch_rad;
+  const std::vector<double> pitch = repeated(pass.cutter.pitch_rad);
   const std::size_t teeth = pitch.size();
+  const double period = std::accumulate(pitch.begin(), pitch.end(), 0.0);
   std::vector<double> behind = {0};  // angle of each tooth behind the first
   for (std::size_t j = 0; j + 1 < teeth; ++j) behind.push_back(behind.back() + pitch[j]);
 
   // Tip angles at which this tooth or any other enters or leaves. The pieces of all teeth end at the same tip
   // angles, so that each has a piece of the tooth before that cut its surface.
   std::vector<double> ends = pass.events_rad;
-  const auto turns = static_cast<int>((pass.last_rad - pass.first_rad) / kTwoPi) + 1;
+  const auto turns = static_cast<int>((pass.last_rad - pass.first_rad) / period) + 1;
   for (const double own : behind) {
     for (const double other : behind) {
       for (const double event : pass.events_rad) {
         for (int turn = -turns; turn <= turns; ++turn) {
-          const double angle = event + other - own + turn * kTwoPi;
+          const double angle = event + other - own + turn * period;
           if (angle > pass.first_rad && angle < pass.last_rad) ends.push_back(angle);
         }
       }
@@ -167,15 +181,18 @@ CutSchedule schedule_of_unequal_pitch(const Pass& pass) {
   ends = distinct(ends);
 
   // Tooth by tooth; the period starts where the first tooth enters.
-  CutSchedule schedule{kTwoPi, static_cast<int>(teeth), {}};
+  CutSchedule schedule{period, static_cast<int>(teeth), {}};
   const std::size_t own = ends.size() - 1;
   for (std::size_t j = 0; j < teeth; ++j) {
     const std::size_t before = (j + teeth - 1) % teeth;
     for (std::size_t b = 0; b < own; ++b) {
-      const double from = wrapped(ends[b] + behind[j] - pass.first_rad, kTwoPi);
+      const double from = wrapped(ends[b] + behind[j] - pass.first_rad, period);
       CutPiece piece = pass.piece(from, from + ends[b + 1] - ends[b], {ends[b] - from});
       piece.cut_by = before * own + b;
       piece.in_period_before = from - pitch[before] < -kSameAngle;
+      piece.arc = j;
+      piece.arc_rad = ends.back() - ends.front();
+      piece.along_rad = ends[b] - ends.front();
       schedule.pieces.push_back(std::move(piece));
     }
   }

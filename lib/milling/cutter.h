@@ -3,7 +3,8 @@
 //
 // A tooth's angle phi is measured clockwise from the cut frame's +Y axis, at the tip. The "turn" is the angle
 // that the cutter has turned since the period's start; the period is the pitch where all pitches are equal,
-// and the revolution otherwise.
+// and with unequal pitches the revolution, or the part of it after which their
+// pattern repeats.
 #pragma once
 
 #include <Eigen/Core>
@@ -57,6 +58,10 @@ struct CutPiece {
   std::function<DirectionalFactors(double turn_rad)> damping;
   std::size_t cut_by = 0;        ///< index of the piece that cut this one's surface, of the same length
   bool in_period_before = true;  ///< whether it did so in the period before this one
+  /// The arc that it is a part of: its index, the arc's length, and how far along it the piece begins. Arcs
+  /// join the pieces of one tooth's way through the cut (unequal pitch); else each piece is one.
+  std::size_t arc = 0;
+  double arc_rad = 0, along_rad = 0;
 };
 
 struct CutSchedule {

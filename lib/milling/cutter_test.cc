@@ -5,6 +5,8 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "milling/milling_fixtures_test.h"
+#include "milling/spectral.h"
 #include "numerics/legendre.h"
 
 using namespace stablecut;
@@ -113,4 +115,22 @@ TEST_CASE("process damping takes energy wherever the tooth is, and more the slow
     CHECK(damping.trace() == Approx(-6e5 / (kPi * 0.012 * 50)));
     CHECK((at(25) - 2 * damping).norm() < 1e-12 * damping.norm());
   }
+}
+
+TEST_CASE(
+    "a pattern of pitches that repeats has the period of the pattern, and the radii of the revolution") {
+  const TipStructure structure = tip_structure(fixtures::coupled_modes(3, 4));
+  Cutter cutter = fixtures::benchmark_cutter(true, 0.6, 4);
+  cutter.pitch_rad = {70 * kPi / 180, 110 * kPi / 180, 70 * kPi / 180, 110 * kPi / 180};
+  const CutSchedule half = cut_schedule(cutter, 100, 0);
+  CHECK(half.period_rad == Approx(kPi));
+  CHECK(half.passes == 2);
+  // By a millionth of a degree another pattern, of a whole revolution.
+  Cutter other = cutter;
+  other.pitch_rad[0] += 1e-8;
+  other.pitch_rad[1] -= 1e-8;
+  CHECK(cut_schedule(other, 100, 0).period_rad == Approx(kTwoPi));
+  for (const double depth : {0.2e-3, 1e-3})
+    CHECK(spectral_radius(SpectralMap(structure, cutter, 100, 24), depth) ==
+          Approx(spectral_radius(SpectralMap(structure, other, 100, 24), depth)).epsilon(1e-6));
 }

@@ -41,6 +41,7 @@ constexpr int kMostBisections = 100;      // iterations for a boundary
 constexpr int kBisectEvery = 4;           // iterations, instead of a secant step
 constexpr double kCorrectionStep = 1e-3;  // of the panel, for the slope at a boundary
 constexpr int kGoldenSteps = 40;
+constexpr std::size_t kMeasured = 8;  // depths at which the interpolation is compared with the map
 
 // What the last coefficients say of those that were left out.
 double tail(const Coefficients& c) {
@@ -67,6 +68,7 @@ DepthScan::DepthScan(const PeriodMap& map, double largest_depth_m, double tolera
     panel.from_m = from;
     panel.to_m = from + kLastPanel * width >= largest_depth_m ? largest_depth_m : from + width;
     const double error = resolve(panel);
+    panel.error = error;
     panel.resolved = error <= tolerance_;
     width = panel.to_m - from;
     const double wanted = kSafety * std::pow(tolerance_ / std::max(error, std::numeric_limits<double>::min()),
@@ -195,6 +197,28 @@ std::vector<double> DepthScan::spectral_radii(const std::vector<double>& depths_
   return result;
 }
 
+double DepthScan::error_against(const PeriodMap& better) const {
+  std::vector<const Panel*> worst;
+  for (const Panel& panel : panels_) {
+    if (panel.resolved) worst.push_back(&panel);
+  }
+  std::stable_sort(worst.begin(), worst.end(),
+                   [](const Panel* a, const Panel* b) { return a->error > b->error; });
+  // Between the first two nodes, where an interpolation through Chebyshev points has its largest errors.
+  std::vector<double> depths = {0};
+  for (const Panel* panel : worst) {
+    if (depths.size() < kMeasured) depths.push_back((panel->depth_m[0] + panel->depth_m[1]) / 2);
+  }
+  const std::vector<double> radii = spectral_radii(depths),
+                            computed = milling::spectral_radii(better, depths);
+  double error = 0;
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    if (computed[i] > kFarAbove) continue;
+    error = std::max(error, std::abs(radii[i] - computed[i]) / std::max(1.0, computed[i]));
+  }
+  return error;
+}
+
 Complex DepthScan::largest_multiplier(double depth) const {
   const Eigen::VectorXcd multipliers = leading_multipliers(map_, {depth}).front();
   Eigen::Index largest = 0;
@@ -263,6 +287,7 @@ std::vector<DepthScan::Sample> DepthScan::samples() const {
         result.push_back({depth, excess(depth)});
       }
     } else {
+      if (panel.from_m == 0) result.push_back({0, excess(0)});
       for (std::size_t i = 0; i < kNodes; ++i) result.push_back({panel.depth_m[i], panel.radius[i] - 1});
     }
   }

@@ -24,6 +24,7 @@ class DepthScan {
   /// Tolerances of the interpolation, of max(1, radius): for a grid of radii, and where only limits are
   /// wanted, which are corrected with the map itself.
   static constexpr double kExact = 2e-7, kForLimits = 1e-4;
+  static constexpr double kFarAbove = 100;
 
   /// Follows the multipliers over the depths from 0 to `largest_depth_m` > 0. The map must outlive the scan.
   DepthScan(const PeriodMap& map, double largest_depth_m, double tolerance = kExact);
@@ -32,9 +33,13 @@ class DepthScan {
   /// tolerance.
   std::vector<double> spectral_radii(const std::vector<double>& depths_m) const;
 
+  /// The largest difference of the radii from those of a better map, of max(1, radius), at a few depths where
+  /// the interpolation is worst: at depth 0 and in the panels of the largest errors. Depths with radii above
+  /// kFarAbove, whose digits nobody needs, are left out.
+  double error_against(const PeriodMap& better) const;
+
   /// Every boundary of stability, by depth, to 1e-9 of the largest depth or the map's accuracy. Two that are
-  /// closer than some thousandth of the largest depth may be missed, and one below the first node of a panel
-  /// from depth 0 that stays unresolved.
+  /// closer than some thousandth of the largest depth may be missed.
   std::vector<StabilityBoundary> boundaries() const;
 
  private:
@@ -50,6 +55,7 @@ class DepthScan {
     double from_m, to_m;
     std::array<double, kNodes> depth_m, radius;  // at the nodes
     bool resolved = false;
+    double error = 0;  // as resolve() says
     std::vector<Branch> branches;
 
     double place(double depth) const { return (2 * depth - from_m - to_m) / (to_m - from_m); }

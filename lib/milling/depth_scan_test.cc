@@ -171,3 +171,20 @@ TEST_CASE("flips and islands of the one-mode slot and of low immersion") {
   const Cutter down = fixtures::benchmark_cutter(false, 0.1);
   CHECK(check_against_direct(SpectralMap(one, down, 18025.3 / 60, 16), 20e-3, 801) == 3);
 }
+
+TEST_CASE("a boundary below the first node of an unresolved first panel is found") {
+  // Up and down below depth 0.1 so fast that no panel follows it, above 1 everywhere but next to depth 0.
+  const KnownMap map =
+      alone([](double a) { return 0.9 + 0.4 * std::tanh(4000 * a) + 0.05 * std::sin(1e5 * a); });
+  const auto boundaries = DepthScan(map, 1).boundaries();
+  REQUIRE(!boundaries.empty());
+  CHECK(boundaries.front().unstable_above);
+  CHECK(boundaries.front().depth_m < 1e-3);
+}
+
+TEST_CASE("the error of a scan is that of its radii against a better map") {
+  const KnownMap map = alone([](double a) { return 0.9 + 0.2 * a; });
+  const KnownMap better = alone([](double a) { return 0.9 + 0.2 * a + 1e-5; });
+  CHECK(DepthScan(map, 1).error_against(map) < 1e-12);
+  CHECK(DepthScan(map, 1).error_against(better) == Approx(1e-5).epsilon(0.2));
+}

@@ -93,36 +93,34 @@ std::vector<double> spectral_radii(const PeriodMap& map, const std::vector<doubl
   return radii;
 }
 
-CriticalMultiplier critical_multiplier(const PeriodMap& map, double depth_m, Complex near) {
-  const TipStructure& structure = map.structure();
-  const auto [mu, vector] = eigenpair(map.monodromy(depth_m), near);
-
-  CriticalMultiplier critical;
-  critical.value = mu;
-  if (std::abs(mu.imag()) <= kRealMultiplier * std::abs(mu)) {
-    critical.kind = mu.real() < 0 ? Instability::kFlip : Instability::kFold;
-  }
-
-  const std::vector<ForceImpulse> forces = map.forces(depth_m, mu, vector);
-  const Complex exponent = std::log(mu) / map.period_s();
+Chatter chatter_of(const TipStructure& structure, double period_s, Complex mu,
+                   const std::vector<ForceImpulse>& forces) {
+  Chatter chatter;
+  if (std::abs(mu.imag()) <= kRealMultiplier * std::abs(mu))
+    chatter.kind = mu.real() < 0 ? Instability::kFlip : Instability::kFold;
+  const Complex exponent = std::log(mu) / period_s;
   const double highest = structure.lambda.cwiseAbs().maxCoeff();
-  const auto harmonics = static_cast<int>(std::min(
-                             std::ceil(kHarmonicReach * highest * map.period_s() / kTwoPi), kMostHarmonics)) +
-                         1;
+  const auto harmonics =
+      static_cast<int>(std::min(std::ceil(kHarmonicReach * highest * period_s / kTwoPi), kMostHarmonics)) + 1;
   double best = -1;
   for (int k = -harmonics; k <= harmonics; ++k) {
-    const Complex s = exponent + Complex(0, kTwoPi * k / map.period_s());
+    const Complex s = exponent + Complex(0, kTwoPi * k / period_s);
     Eigen::VectorXcd amplitude = Eigen::VectorXcd::Zero(structure.directions());
     for (const ForceImpulse& force : forces) amplitude += force.impulse * std::exp(-s * force.time_s);
     const Eigen::MatrixXcd moved = structure.mode_receptances(s, amplitude);
     amplitude = moved.rowwise().sum();
     if (amplitude.norm() > best * (1 + kSameAmplitude)) {
       best = amplitude.norm();
-      critical.chatter_frequency_hz = hz_from_rad_per_s(std::abs(s.imag()));
-      critical.participation = (amplitude.adjoint() * moved).real().transpose() / amplitude.squaredNorm();
+      chatter.frequency_hz = hz_from_rad_per_s(std::abs(s.imag()));
+      chatter.participation = (amplitude.adjoint() * moved).real().transpose() / amplitude.squaredNorm();
     }
   }
-  return critical;
+  return chatter;
+}
+
+Chatter chatter_at(const PeriodMap& map, double depth_m, Complex near) {
+  const auto [mu, vector] = eigenpair(map.monodromy(depth_m), near);
+  return chatter_of(map.structure(), map.period_s(), mu, map.forces(depth_m, mu, vector));
 }
 
 }  // namespace stablecut::milling

@@ -61,16 +61,18 @@ std::vector<double> spectral_radii(const PeriodMap& map, const std::vector<doubl
 /// How the multiplier leaves the unit circle: a complex pair, through -1, or through +1.
 enum class Instability { kHopf, kFlip, kFold };
 
-/// A multiplier on the unit circle, and how its motion shakes the tip. README.md, "Chatter frequency".
-struct CriticalMultiplier {
-  std::complex<double> value;
+/// How a motion on the unit circle shakes the tip. README.md, "Chatter frequency".
+struct Chatter {
   Instability kind = Instability::kHopf;
   /// The one of the frequencies |arg(mu) / (2 pi T) + k / T| at which the tip moves most, Hz [Dombovari2010].
-  double chatter_frequency_hz = 0;
+  double frequency_hz = 0;
   /// [modes] Share of each mode in the tip's motion at that frequency; they add up to 1.
   Eigen::VectorXd participation;
 };
+/// Of a motion with a multiplier on the unit circle, from its forces over a period.
+Chatter chatter_of(const TipStructure& structure, double period_s, std::complex<double> multiplier,
+                   const std::vector<ForceImpulse>& forces);
 /// Of the map at a depth; `near` is a value close to the multiplier that is wanted.
-CriticalMultiplier critical_multiplier(const PeriodMap& map, double depth_m, std::complex<double> near);
+Chatter chatter_at(const PeriodMap& map, double depth_m, std::complex<double> near);
 
 }  // namespace stablecut::milling

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "base/error.h"
 #include "base/range.h"
 #include "base/units.h"
 #include "milling/milling_fixtures_test.h"
@@ -224,7 +225,7 @@ TEST_CASE("tested cuts are judged at their own speed and depth") {
                                        {10000.0 / 60, 0.33e-3, true},
                                        {8000.0 / 60, 0.67e-3, false},
                                        {8000.0 / 60, 0.68e-3, {}}};
-  const auto judged = judged_cuts(cuts, structure, cutter, {}, 2);
+  const auto judged = judged_cuts(cuts, {structure}, cutter, {}, 2);
   REQUIRE(judged.size() == 4);
   for (std::size_t i = 0; i < cuts.size(); ++i) {
     CHECK(judged[i].stable == (i % 2 == 0));
@@ -235,4 +236,19 @@ TEST_CASE("tested cuts are judged at their own speed and depth") {
   CHECK(*judged[0].agrees);
   CHECK(!*judged[1].agrees);
   CHECK(!*judged[2].agrees);
+}
+
+TEST_CASE("a speed that cannot be resolved leaves the others as they are") {
+  dynamics::ModalModel model = fixtures::oscillator({"x"});
+  model.modes[0].frequency_hz = 50000;
+  const TipStructure structure = tip_structure(model);
+  const Cutter cutter = fixtures::benchmark_cutter(false, 1);
+  const std::vector<double> depths = {0, 1e-3};
+  const auto chart = stability_chart(structure, cutter, {20.0, 900.0}, depths, {}, true, 2);
+  CHECK(!chart.failure[0].empty());
+  CHECK(chart.failure[1].empty());
+  CHECK(std::isnan(chart.spectral_radius(1, 0)));
+  const auto alone = stability_chart(structure, cutter, {900.0}, depths, {}, true, 1);
+  CHECK(chart.spectral_radius(1, 1) == alone.spectral_radius(1, 0));
+  CHECK_THROWS_AS(stability_chart(structure, cutter, {20.0, 21.0}, depths, {}, true, 2), NoAnswer);
 }

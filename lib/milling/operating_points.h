@@ -15,28 +15,23 @@ namespace stablecut::milling {
 struct LimitPoint {
   double revolutions_per_s = 0;
   std::optional<double> depth_m;
+  bool known = true;  ///< false: the speed could not be resolved, and nothing is known there
 };
 
-/// The limit at a speed (revolutions/s), as far as it lies below a depth.
+/// The limit at a speed (revolutions/s), as far as it lies below a depth. Where a speed cannot be resolved,
+/// no cut is stable: depth 0.
 using LimitAt = std::function<std::optional<double>(double revolutions_per_s, double largest_depth_m)>;
 
-/// A lobe that may be narrower than the chart's steps of speed.
-struct NarrowLobe {
-  double revolutions_per_s = 0;  ///< where it begins
-  double width = 0;              ///< from there upwards, as a share of the speed
-};
+/// Speeds between those of a chart (increasing, revolutions/s), so that neighbours are no farther apart than
+/// the narrowest features that matter: the damping ratio of each mode whose own share in limits of `depth_m`
+/// is more than a few per cent. At most `most` of them. README.md, "What to run".
+std::vector<double> speeds_between(const std::vector<TipStructure>& structures, const Cutter& cutter,
+                                   const std::vector<double>& chart, double depth_m, std::size_t most);
 
-/// Speeds between `from` and `to` (revolutions/s) just above which a mode may flip: where its oscillations in
-/// a period are a whole number and a half. The lobe is a few damping ratios wide.
-std::vector<NarrowLobe> possible_flips(const TipStructure& structure, const Cutter& cutter, double from,
-                                       double to);
-
-/// The lowest limit over all speeds of the chart, between its speeds too: around its two lowest minima, and
-/// in the narrow lobes. A lobe elsewhere that no speed of the chart lies in is missed. None when every speed
-/// is stable to the largest depth. `chart` by increasing speed; `limit_at` may be called from several
-/// threads.
-std::optional<LimitPoint> unconditional_limit(const std::vector<LimitPoint>& chart, double largest_depth_m,
-                                              const std::vector<NarrowLobe>& narrow, const LimitAt& limit_at,
+/// The lowest limit over all speeds of a curve, between its speeds too: around each minimum that is not far
+/// above the lowest. A lobe that no speed of the curve lies in is missed. None when every speed is stable to
+/// the largest depth. `curve` by increasing speed; `limit_at` may be called from several threads.
+std::optional<LimitPoint> unconditional_limit(const std::vector<LimitPoint>& curve, const LimitAt& limit_at,
                                               int threads);
 
 /// What a cut removes, and the power and torque that it takes: Kt times the chip's volume is the cutting
@@ -62,15 +57,17 @@ struct OperatingPoint {
   double depth_m = 0;
   std::optional<double> limit_m;    ///< at this speed
   double slowest = 0, fastest = 0;  ///< revolutions/s: the depth was stable at every step between them
+  /// The curve ends within the margin of speed: a better point may lie beyond it, and chatter too.
+  bool at_edge = false;
 };
 
-/// At most `count` points of largest removal rate (depth times speed), best first. At each of the chart's
+/// At most `count` points of largest removal rate (depth times speed), best first. At each of the curve's
 /// speeds the deepest cut inside the limits is taken, and of these the ones that are better than their
-/// neighbours. Then limits are computed at quarters of the speed margin to either side, also between the
-/// chart's speeds, and the depth is lowered where they ask for it; and in steps of half a margin further out
-/// it is seen how far the cut stays stable, up to three margins or the chart's end. Empty when no depth is
-/// stable at any speed. `chart` by increasing speed; `limit_at` may be called from several threads.
-std::vector<OperatingPoint> best_points(const std::vector<LimitPoint>& chart, const OperatingLimits& limits,
+/// neighbours. Then limits are looked at in quarters of the speed margin to either side (those of the curve
+/// where it has a speed near, else computed), and the depth is lowered where they ask for it; and further out
+/// it is seen how far the cut stays stable, up to three margins or the curve's end. Empty when no depth is
+/// stable at any speed. `curve` by increasing speed; `limit_at` may be called from several threads.
+std::vector<OperatingPoint> best_points(const std::vector<LimitPoint>& curve, const OperatingLimits& limits,
                                         std::size_t count, const LimitAt& limit_at, int threads);
 
 }  // namespace stablecut::milling

@@ -37,7 +37,7 @@ std::vector<LimitPoint> chart_of_valleys() {
 TEST_CASE("the unconditional limit lies between the chart's speeds") {
   const auto chart = chart_of_valleys();
   const auto limit_at = limit_of_valley;
-  const auto found = unconditional_limit(chart, 4e-3, {}, limit_at, 1);
+  const auto found = unconditional_limit(chart, limit_at, 1);
   REQUIRE(found);
   double lowest = 1, at = 0;
   for (double speed = 20; speed < 200; speed += 0.01) {
@@ -45,9 +45,9 @@ TEST_CASE("the unconditional limit lies between the chart's speeds") {
   }
   CHECK(*found->depth_m == Approx(lowest).epsilon(1e-4));
   CHECK(found->revolutions_per_s == Approx(at).margin(0.3));
-  CHECK(unconditional_limit(chart, 4e-3, {}, limit_at, 2)->depth_m == found->depth_m);
-  CHECK(!unconditional_limit({{10, {}}, {20, {}}}, 1e-9, {}, limit_at, 1));
-  CHECK(unconditional_limit({{31, valley(31)}}, 4e-3, {}, limit_at, 1)->revolutions_per_s == 31);
+  CHECK(unconditional_limit(chart, limit_at, 2)->depth_m == found->depth_m);
+  CHECK(!unconditional_limit({{10, {}}, {20, {}}}, limit_at, 1));
+  CHECK(unconditional_limit({{31, valley(31)}}, limit_at, 1)->revolutions_per_s == 31);
 }
 
 // The flip of a lightly damped mode is 1 % of the speed wide: a coarse chart steps over it.
@@ -60,10 +60,14 @@ TEST_CASE("the unconditional limit finds a flip between the chart's speeds") {
     return limit != nullptr ? std::optional(limit->depth_m) : std::nullopt;
   };
   const auto found_on = [&](int speeds) {
-    std::vector<LimitPoint> chart;
-    for (const double speed : Range{240, 390, speeds}.values())
-      chart.push_back({speed, limit_at(speed, 20e-3)});
-    return unconditional_limit(chart, 20e-3, possible_flips(structure, cutter, 240, 390), limit_at, 2);
+    std::vector<double> all = Range{240, 390, speeds}.values();
+    const std::vector<double> between = speeds_between({structure}, cutter, all, 3e-3, 1000);
+    CHECK(between.size() + all.size() >= 46);  // log(390 / 240) over the damping ratio, 0.011
+    all.insert(all.end(), between.begin(), between.end());
+    std::sort(all.begin(), all.end());
+    std::vector<LimitPoint> curve;
+    for (const double speed : all) curve.push_back({speed, limit_at(speed, 20e-3)});
+    return unconditional_limit(curve, limit_at, 2);
   };
   const auto coarse = found_on(4), fine = found_on(300);
   REQUIRE(coarse);
@@ -121,7 +125,7 @@ TEST_CASE("what to run keeps the chart's limits, and power and torque by the fee
   const LimitCurve curve = limit_curve(chart, speeds, StabilityMethod::kSpectral, 3e-3);
   RunRequest request;
   request.count = 3;
-  const WhatToRun plain = what_to_run(structure, cutter, curve, request, 2);
+  const WhatToRun plain = what_to_run({structure}, cutter, curve, request, 2);
   REQUIRE(plain.unconditional);
   // The lowest limit of a slot between lobes.
   CHECK(*plain.unconditional->depth_m < 0.323e-3);
@@ -138,13 +142,13 @@ TEST_CASE("what to run keeps the chart's limits, and power and torque by the fee
   request.feed_per_tooth_m = 0.05e-3;
   request.largest_power_w =
       0.5 * cut_rate(cutter, 0.05e-3, plain.best[0].revolutions_per_s, plain.best[0].depth_m).power_w;
-  const WhatToRun less = what_to_run(structure, cutter, curve, request, 1);
+  const WhatToRun less = what_to_run({structure}, cutter, curve, request, 1);
   REQUIRE(less.rates.size() == less.best.size());
   REQUIRE(!less.best.empty());
   for (const CutRate& rate : less.rates) CHECK(rate.power_w <= *request.largest_power_w * (1 + 1e-12));
   CHECK(less.rates[0].power_w == Approx(*request.largest_power_w));
   request.largest_torque_n_m = 0.5 * less.rates[0].torque_n_m;
-  const WhatToRun least = what_to_run(structure, cutter, curve, request, 1);
+  const WhatToRun least = what_to_run({structure}, cutter, curve, request, 1);
   REQUIRE(!least.rates.empty());
   for (const CutRate& rate : least.rates) CHECK(rate.torque_n_m <= *request.largest_torque_n_m * (1 + 1e-12));
 }

@@ -7,8 +7,7 @@
 #include <random>
 
 #include "base/parallel.h"
-#include "milling/depth_scan.h"
-#include "milling/spectral.h"
+#include "milling/limits.h"
 #include "numerics/order_statistics.h"
 #include "numerics/random.h"
 
@@ -88,14 +87,15 @@ SampledStability sampled_stability(const std::vector<SampledCut>& samples,
       [&](std::size_t s) {
         std::vector<double> limits;
         for (const SampledCut& sample : samples) {
-          const SpectralMap map(sample.structure, sample.cutter, revolutions_per_s[s], points[s]);
-          const auto boundaries = DepthScan(map, depths_m.back(), DepthScan::kForLimits).boundaries();
+          const auto boundaries =
+              speed_limits(sample.structure, sample.cutter, revolutions_per_s[s], depths_m.back(), points[s])
+                  .crossings;
           limits.push_back(boundaries.empty() ? std::numeric_limits<double>::infinity()
                                               : boundaries[0].depth_m);
           for (std::size_t i = 0; with_grid && i < depths_m.size(); ++i) {
             const auto below =
                 std::find_if(boundaries.begin(), boundaries.end(),
-                             [&](const StabilityBoundary& b) { return b.depth_m >= depths_m[i]; });
+                             [&](const StabilityCrossing& b) { return b.depth_m >= depths_m[i]; });
             // Stable up to the first boundary, and between a second and a third.
             if ((below - boundaries.begin()) % 2 == 0) result.stable_share(i, s) += 1;
           }

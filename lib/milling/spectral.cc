@@ -50,14 +50,15 @@ Eigen::MatrixXd monodromy_of(const Collocation& c, double depth_m, double scale)
 
 SpectralMap::SpectralMap(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
                          int points)
-    : PeriodMap(structure,
-                cutter.equal_pitch() ? cutter.tooth_period_s(revolutions_per_s) : 1 / revolutions_per_s,
-                cutter.equal_pitch() ? 1 : cutter.teeth),
+    : SpectralMap(structure, cutter, cut_schedule(cutter, revolutions_per_s, 0), revolutions_per_s, points) {}
+
+SpectralMap::SpectralMap(const TipStructure& structure, const Cutter& cutter, const CutSchedule& at_no_depth,
+                         double revolutions_per_s, int points)
+    : PeriodMap(structure, at_no_depth.period_rad / (kTwoPi * revolutions_per_s), at_no_depth.passes),
       cutter_(cutter),
       revolutions_per_s_(revolutions_per_s),
       points_(points) {
-  if (cutter.lag_rad_per_m == 0)
-    fixed_ = collocate(structure, cut_schedule(cutter, revolutions_per_s, 0), revolutions_per_s, points);
+  if (cutter.lag_rad_per_m == 0) fixed_ = collocate(structure, at_no_depth, revolutions_per_s, points);
 }
 
 SpectralMap::SpectralMap(const TipStructure& structure, const CutSchedule& schedule, double revolutions_per_s,
@@ -69,7 +70,7 @@ SpectralMap::SpectralMap(const TipStructure& structure, const CutSchedule& sched
 
 Collocation SpectralMap::at_depth(double depth_m) const {
   return collocate(structure(), cut_schedule(cutter_, revolutions_per_s_, depth_m), revolutions_per_s_,
-                   points_);
+                   points_, Rows::kByNode);
 }
 
 Eigen::MatrixXd SpectralMap::monodromy(double depth_m) const {
@@ -81,10 +82,15 @@ std::vector<ForceImpulse> SpectralMap::forces(double depth_m, Complex, const Eig
   const Collocation helical = fixed_ ? Collocation{} : at_depth(depth_m);
   const Collocation& c = fixed_ ? *fixed_ : helical;
   const Eigen::VectorXcd sensed = differences(c, depth_m, structure().displacement_scale_m) * state;
+  return forces_of(c, sensed);
+}
+
+std::vector<ForceImpulse> forces_of(const Collocation& collocation, const Eigen::VectorXcd& sensed) {
+  const Eigen::VectorXcd numbers = at_nodes(collocation, sensed);
   std::vector<ForceImpulse> result;
-  for (const CollocationNode& node : c.nodes) {
+  for (const CollocationNode& node : collocation.nodes) {
     result.push_back(
-        {node.time_s, node.weight_s * (node.drive * sensed.segment(node.first_row, node.drive.cols()))});
+        {node.time_s, node.weight_s * (node.drive * numbers.segment(node.first_row, node.drive.cols()))});
   }
   return result;
 }

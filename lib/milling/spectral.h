@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "milling/collocation.h"
 #include "milling/cutter.h"
@@ -27,6 +28,8 @@ class SpectralMap : public PeriodMap {
                                    const Eigen::VectorXcd& state) const override;
 
  private:
+  SpectralMap(const TipStructure& structure, const Cutter& cutter, const CutSchedule& at_no_depth,
+              double revolutions_per_s, int points);
   Collocation at_depth(double depth_m) const;
 
   Cutter cutter_;
@@ -34,5 +37,8 @@ class SpectralMap : public PeriodMap {
   int points_;
   std::optional<Collocation> fixed_;  // none with helical teeth
 };
+
+/// The forces over a period, from what the collocation's rows sense.
+std::vector<ForceImpulse> forces_of(const Collocation& collocation, const Eigen::VectorXcd& sensed);
 
 }  // namespace stablecut::milling

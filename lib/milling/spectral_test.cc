@@ -72,9 +72,9 @@ TEST_CASE("unequal pitch with equal pitches is the plain case") {
     Cutter cutter = fixtures::benchmark_cutter(true, immersion, teeth);
     for (const double depth : {0.3e-3, 1.5e-3}) {
       cutter.pitch_rad.clear();
-      const double plain = spectral_radius(SpectralMap(structure, cutter, 150, 24), depth);
+      const double plain = spectral_radius(SpectralMap(structure, cutter, 150, 32), depth);
       cutter.pitch_rad.assign(teeth, kTwoPi / teeth);
-      const double by_tooth = spectral_radius(SpectralMap(structure, cutter, 150, 24), depth);
+      const double by_tooth = spectral_radius(SpectralMap(structure, cutter, 150, 32), depth);
       INFO(teeth << " teeth, immersion " << immersion << ", depth " << depth);
       CHECK(by_tooth == Approx(plain).epsilon(1e-10));
     }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "milling/cutter.h"
-#include "milling/lobes.h"
+#include "milling/period.h"
 #include "milling/structure.h"
 
 namespace stablecut::milling {
@@ -24,8 +24,10 @@ struct JudgedCut {
   std::optional<bool> agrees;  ///< with what was observed
 };
 
-/// One verdict for each cut, each at its own speed and depth. Throws as prepare_period.
-std::vector<JudgedCut> judged_cuts(const std::vector<TestedCut>& cuts, const TipStructure& structure,
-                                   const Cutter& cutter, const StabilityScheme& scheme, int threads);
+/// One verdict for each cut, each at its own speed and depth, of the structure with the largest radius there.
+/// Throws as prepare_period.
+std::vector<JudgedCut> judged_cuts(const std::vector<TestedCut>& cuts,
+                                   const std::vector<TipStructure>& structures, const Cutter& cutter,
+                                   const StabilityScheme& scheme, int threads);
 
 }  // namespace stablecut::milling

@@ -2,8 +2,17 @@
 
 #include <algorithm>
 
+#include "base/error.h"
+#include "base/parallel.h"
+
 namespace stablecut::milling {
 namespace {
+
+// Limits between the curve's speeds: so many for each of them at most, and so many at least; where a limit is
+// dear, one for so many.
+constexpr std::size_t kMostBetween = 4, kLeastBetween = 400, kSpeedsForOneDear = 4;
+// A limit with more points on an arc is dear, and so is one of helical teeth or unequal pitches.
+constexpr int kCheapPoints = 48;
 
 OperatingLimits limits_of(const RunRequest& request, const Cutter& cutter, double largest_depth_m) {
   OperatingLimits limits;
@@ -27,30 +36,74 @@ LimitCurve limit_curve(const StabilityChart& chart, const std::vector<double>& r
   LimitCurve curve{{}, chart.resolution, method, largest_depth_m};
   for (std::size_t s = 0; s < revolutions_per_s.size(); ++s) {
     const StabilityCrossing* limit = limit_of(chart.crossings[s]);
-    curve.points.push_back(
-        {revolutions_per_s[s], limit != nullptr ? std::optional(limit->depth_m) : std::nullopt});
+    curve.points.push_back({revolutions_per_s[s],
+                            limit != nullptr ? std::optional(limit->depth_m) : std::nullopt,
+                            chart.failure.empty() || chart.failure[s].empty()});
   }
   return curve;
 }
 
-WhatToRun what_to_run(const TipStructure& structure, const Cutter& cutter, const LimitCurve& curve,
-                      const RunRequest& request, int threads) {
-  const LimitAt limit_at = [&](double speed, double largest_depth_m) {
+WhatToRun what_to_run(const std::vector<TipStructure>& structures, const Cutter& cutter,
+                      const LimitCurve& curve, const RunRequest& request, int threads) {
+  const LimitAt limit_at = [&](double speed, double largest_depth_m) -> std::optional<double> {
     // Lower speeds need more points.
     const auto above =
         std::upper_bound(curve.points.begin(), curve.points.end(), speed,
                          [](double value, const LimitPoint& p) { return value < p.revolutions_per_s; });
     const auto below = std::max<std::ptrdiff_t>(above - curve.points.begin() - 1, 0);
-    return limit_depth(structure, cutter, speed, curve.method, curve.resolution[below], largest_depth_m);
+    if (curve.resolution[below] == 0) return 0.0;
+    try {
+      std::optional<double> lowest;
+      for (const TipStructure& structure : structures) {
+        const double top = lowest.value_or(largest_depth_m);
+        const auto limit = limit_depth(structure, cutter, speed, curve.method, curve.resolution[below], top);
+        if (limit) lowest = limit;
+      }
+      return lowest;
+    } catch (const NoAnswer&) {
+      return 0.0;
+    } catch (const InvalidArgument&) {
+      return 0.0;
+    }
   };
-  const double slowest = curve.points.front().revolutions_per_s;
-  const double fastest = curve.points.back().revolutions_per_s;
   WhatToRun what;
-  what.unconditional =
-      unconditional_limit(curve.points, curve.largest_depth_m,
-                          possible_flips(structure, cutter, slowest, fastest), limit_at, threads);
+  std::vector<double> speeds;
+  double lowest = curve.largest_depth_m;
+  for (const LimitPoint& point : curve.points) {
+    speeds.push_back(point.revolutions_per_s);
+    if (point.depth_m) lowest = std::min(lowest, *point.depth_m);
+  }
+  const int points = *std::max_element(curve.resolution.begin(), curve.resolution.end());
+  const bool cheap = curve.method == StabilityMethod::kSpectral && cutter.equal_pitch() &&
+                     cutter.lag_rad_per_m == 0 && points <= kCheapPoints;
+  const std::size_t most =
+      cheap ? kMostBetween * speeds.size() + kLeastBetween : speeds.size() / kSpeedsForOneDear;
+  for (const double speed : speeds_between(structures, cutter, speeds, lowest, most))
+    what.between.push_back({speed, {}});
+  parallel_for(what.between.size(), threads, [&](std::size_t i) {
+    LimitPoint& point = what.between[i];
+    const auto limit = limit_at(point.revolutions_per_s, curve.largest_depth_m);
+    point.known = !limit || *limit > 0;
+    if (point.known) point.depth_m = limit;
+  });
+  std::vector<LimitPoint> all = curve.points;
+  all.insert(all.end(), what.between.begin(), what.between.end());
+  const auto by_speed = [](const LimitPoint& a, const LimitPoint& b) {
+    return a.revolutions_per_s < b.revolutions_per_s;
+  };
+  std::sort(all.begin(), all.end(), by_speed);
+  // A speed that cannot be resolved does not decide what is stable at all others.
+  const LimitAt known_limit_at = [&](double speed, double largest_depth_m) {
+    const auto limit = limit_at(speed, largest_depth_m);
+    return limit && *limit == 0 ? std::nullopt : limit;
+  };
+  what.unconditional = unconditional_limit(all, known_limit_at, threads);
+  if (what.unconditional) {
+    what.between.push_back(*what.unconditional);
+    std::sort(what.between.begin(), what.between.end(), by_speed);
+  }
   what.limits = limits_of(request, cutter, curve.largest_depth_m);
-  what.best = best_points(curve.points, what.limits, request.count, limit_at, threads);
+  what.best = best_points(all, what.limits, request.count, limit_at, threads);
   if (request.feed_per_tooth_m) {
     for (const OperatingPoint& point : what.best)
       what.rates.push_back(

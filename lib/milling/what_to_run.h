@@ -33,16 +33,17 @@ struct RunRequest {
 };
 
 struct WhatToRun {
-  std::optional<LimitPoint>
-      unconditional;                 ///< the lowest limit of all speeds; none: stable to the largest depth
+  /// The lowest limit of all speeds; none: stable to the largest depth.
+  std::optional<LimitPoint> unconditional;
+  std::vector<LimitPoint> between;   ///< limits between the curve's speeds, by speed
   OperatingLimits limits;            ///< that the best points keep
   std::vector<OperatingPoint> best;  ///< best first
   std::vector<CutRate> rates;        ///< of the best; empty without a feed
 };
 
-/// Limits between the curve's speeds are computed with as many points or intervals as the curve's speed below
-/// needed. The curve has at least one point.
-WhatToRun what_to_run(const TipStructure& structure, const Cutter& cutter, const LimitCurve& curve,
-                      const RunRequest& request, int threads);
+/// Stable for all structures. Limits between the curve's speeds are computed with as many points or intervals
+/// as the curve's speed below needed. The curve has at least one point.
+WhatToRun what_to_run(const std::vector<TipStructure>& structures, const Cutter& cutter,
+                      const LimitCurve& curve, const RunRequest& request, int threads);
 
 }  // namespace stablecut::milling

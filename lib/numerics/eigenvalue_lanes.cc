@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "numerics/eigenvalues.h"
 #include "numerics/francis_qr.h"
+#include "numerics/lane_array.h"
 #include "numerics/lanes.h"
 
 namespace stablecut::numerics {
@@ -17,19 +18,6 @@ constexpr double kLargestNorm = 1e120;
 // Of a reflected vector; a smaller one is left as it is, nothing beside the rest.
 constexpr double kLeastSquare = 1e-280;
 constexpr int kRoundsBetween = 4;
-
-// Lanes in memory, at whole cache lines: a vector that lies across two costs twice as much.
-class LaneArray {
- public:
-  explicit LaneArray(Eigen::Index size) : lanes_(size) {}
-  double* data() { return lanes_.front().value; }
-
- private:
-  struct alignas(kLanes * sizeof(double)) Aligned {
-    double value[kLanes] = {};
-  };
-  std::vector<Aligned> lanes_;
-};
 
 // n x n matrices in lanes, row by row, with two rows and columns of zeros after them; the column before the
 // first is the last of the row above, and one of zeros comes before all.

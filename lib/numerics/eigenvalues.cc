@@ -310,7 +310,9 @@ Eigen::VectorXcd leading_eigenvalues(Eigen::MatrixXd a, Eigen::Index states) {
       change = std::max(change, std::isfinite(moved) ? moved : kUnsettled);
       value = now;
     }
-    if (change <= kAgreement) return Eigen::Map<const Eigen::VectorXcd>(found.data(), found.size());
+    // All of the block once more: where two meet, both values that were followed may have gone to one of
+    // them.
+    if (change <= kAgreement) return hessenberg_eigenvalues(reduction.reduced(size));
     stopped = size;
     if (change < kUnsettled) continue;
     found.clear();

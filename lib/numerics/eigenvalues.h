@@ -18,9 +18,9 @@ inline constexpr double kLeading = 0.75;
 /// Both parts are brought to one size, and the Hessenberg reduction (an orthonormal Krylov basis, from a
 /// vector without preference) stops early: where what is not reduced yet has a norm well below the largest
 /// modulus, the leading eigenvalues of the reduced part are followed as the basis grows, until a step moves
-/// none of them by more than 1e-11 of max(1, modulus). A compact map of few modes needs little more than
-/// their states. In tests on random maps no larger one was missed; it is not a proof. Throws InvalidArgument
-/// when an entry is not finite.
+/// none of them by more than 1e-11 of max(1, modulus); then all of the block are returned. A compact map of
+/// few modes needs little more than their states. In tests on random maps no larger one was missed; it is not
+/// a proof. Throws InvalidArgument when an entry is not finite.
 Eigen::VectorXcd leading_eigenvalues(Eigen::MatrixXd matrix, Eigen::Index states);
 
 }  // namespace stablecut::numerics

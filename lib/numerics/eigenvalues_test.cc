@@ -1,6 +1,7 @@
 #include "numerics/eigenvalues.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <random>
@@ -122,4 +123,24 @@ TEST_CASE("the largest modulus: early stops agree with all eigenvalues") {
   CHECK(leading_eigenvalues(Eigen::MatrixXd::Zero(5, 5), 2).cwiseAbs().maxCoeff() == 0);
   CHECK(leading_eigenvalues(Eigen::MatrixXd::Identity(9, 9), 4).cwiseAbs().maxCoeff() ==
         Approx(1).epsilon(1e-14));
+}
+
+// Followed from stop to stop, both of two values that nearly meet may go to the smaller one.
+TEST_CASE("of two leading eigenvalues that nearly meet the larger is found") {
+  std::mt19937_64 generator(3);
+  std::normal_distribution<double> normal;
+  for (int trial = 0; trial < 100; ++trial) {
+    const Eigen::Index n = 60, states = 6;
+    Eigen::MatrixXd values = Eigen::MatrixXd::Zero(n, n);
+    const double apart = std::pow(10.0, -2 - trial % 5);
+    values(0, 0) = -1.1;
+    values(1, 1) = -1.1 + apart;
+    for (Eigen::Index i = 2; i < n; ++i) values(i, i) = std::pow(0.4, static_cast<double>(i));
+    const Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(n, n) +
+                                  0.05 * Eigen::MatrixXd::NullaryExpr(n, n, [&](Eigen::Index, Eigen::Index) {
+                                    return normal(generator);
+                                  });
+    const Eigen::MatrixXd matrix = basis * values * basis.inverse();
+    CHECK(std::abs(leading_eigenvalues(matrix, states).cwiseAbs().maxCoeff() - 1.1) < 1e-9);
+  }
 }

@@ -15,6 +15,22 @@ namespace stablecut::numerics {
 /// and the recurrence is solved as a tridiagonal system towards a tail where I_j has its first-order value
 /// (Olver). Accurate to some 1e-13 of the largest I_j for Re z <= 0 and damping ratios -Re z / |z| up to one
 /// half; a few digits less for |z| above 100.
-Eigen::VectorXcd exponential_moments(std::complex<double> z, double x, Eigen::Index count);
+class ExponentialMoments {
+ public:
+  /// The elimination, which is the same at every x.
+  ExponentialMoments(std::complex<double> z, Eigen::Index count);
+
+  /// How many Legendre polynomials at() wants.
+  Eigen::Index legendre_count() const { return tail_ + 2; }
+  /// [x.size() x count] At each x, from `legendre` [x.size() x at least legendre_count()]: the polynomials
+  /// there.
+  Eigen::MatrixXcd at(const Eigen::VectorXd& x, const Eigen::MatrixXd& legendre) const;
+  Eigen::VectorXcd at(double x) const;
+
+ private:
+  std::complex<double> z_;
+  Eigen::Index count_, forward_, tail_;
+  Eigen::VectorXcd factor_, inverse_pivot_;  // [tail]
+};
 
 }  // namespace stablecut::numerics

@@ -15,7 +15,7 @@ TEST_CASE("exponential moments equal their integral by a fine quadrature") {
                           Complex(-0.1, 3.14159265358979), Complex(-0.05, 9.42), Complex(-5, 12),
                           Complex(-1, 30), Complex(-8, 0.01), Complex(-20, 33)}) {
     for (const double x : {-0.97, -0.3, 0.5, 1.0}) {
-      const Eigen::VectorXcd moments = exponential_moments(z, x, count);
+      const Eigen::VectorXcd moments = ExponentialMoments(z, count).at(x);
       Eigen::VectorXcd expected = Eigen::VectorXcd::Zero(count);
       for (Eigen::Index i = 0; i < fine.node.size(); ++i) {
         const double s = -1 + (x + 1) * (fine.node[i] + 1) / 2;

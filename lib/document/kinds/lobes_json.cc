@@ -17,33 +17,39 @@ const std::map<milling::Instability, const char*> kNames = {{milling::Instabilit
                                                             {milling::Instability::kFold, "fold"}};
 
 // How the cut chatters at a crossing.
-void describe(Json& item, const milling::StabilityCrossing& crossing) {
+void describe(Json& item, const milling::StabilityCrossing& crossing, bool with_table) {
   item["depth_mm"] = mm_from_metres(crossing.depth_m);
   item["chatter_frequency_hz"] = crossing.chatter_frequency_hz;
   item["kind"] = kNames.at(crossing.kind);
   item["lobe"] = crossing.lobe;
   item["mode"] = crossing.mode + 1;
   item["participation"] = crossing.participation;
+  if (with_table) item["table"] = crossing.table + 1;
 }
 
+// `failure`: why there is nothing to say of a speed; empty where there is, or of no speed.
 Json limit_to_json(const std::vector<double>& speed_rpm,
-                   const std::vector<std::vector<milling::StabilityCrossing>>& crossings) {
+                   const std::vector<std::vector<milling::StabilityCrossing>>& crossings,
+                   const std::vector<std::string>& failure, bool with_table) {
   Json list = Json::array();
   for (std::size_t s = 0; s < speed_rpm.size(); ++s) {
     Json item = {{"speed_rpm", speed_rpm[s]}, {"depth_mm", nullptr}};
-    if (const milling::StabilityCrossing* limit = milling::limit_of(crossings[s])) describe(item, *limit);
+    if (s < failure.size() && !failure[s].empty()) item["not_resolved"] = failure[s];
+    if (const milling::StabilityCrossing* limit = milling::limit_of(crossings[s]))
+      describe(item, *limit, with_table);
     list.push_back(std::move(item));
   }
   return list;
 }
 
 Json crossings_to_json(const std::vector<double>& speed_rpm,
-                       const std::vector<std::vector<milling::StabilityCrossing>>& crossings) {
+                       const std::vector<std::vector<milling::StabilityCrossing>>& crossings,
+                       bool with_table) {
   Json list = Json::array();
   for (std::size_t s = 0; s < speed_rpm.size(); ++s) {
     for (const milling::StabilityCrossing& crossing : crossings[s]) {
       Json item = {{"speed_rpm", speed_rpm[s]}};
-      describe(item, crossing);
+      describe(item, crossing, with_table);
       item["above"] = crossing.unstable_above ? "unstable" : "stable";
       list.push_back(std::move(item));
     }
@@ -81,7 +87,11 @@ milling::StabilityCrossing crossing_from(const Node& item) {
 
 Json rows_to_json(const Eigen::MatrixXd& matrix) {
   Json rows = Json::array();
-  for (const auto& row : matrix.rowwise()) rows.push_back(std::vector<double>(row.begin(), row.end()));
+  for (const auto& row : matrix.rowwise()) {
+    Json items = Json::array();
+    for (const double value : row) items.push_back(std::isnan(value) ? Json(nullptr) : Json(value));
+    rows.push_back(std::move(items));
+  }
   return rows;
 }
 
@@ -107,6 +117,15 @@ Json what_to_run_to_json(const milling::WhatToRun& what) {
         {"depth_mm", mm_from_metres(*what.unconditional->depth_m)},
         {"speed_rpm", rpm_from_revolutions_per_s(what.unconditional->revolutions_per_s)}};
   }
+  if (!what.between.empty()) {
+    Json between = Json::array();
+    for (const milling::LimitPoint& point : what.between) {
+      if (point.known)
+        between.push_back({{"speed_rpm", rpm_from_revolutions_per_s(point.revolutions_per_s)},
+                           {"depth_mm", optional_mm(point.depth_m)}});
+    }
+    document["limit_between"] = std::move(between);
+  }
   document["best"] = Json::array();
   for (std::size_t i = 0; i < what.best.size(); ++i) {
     const milling::OperatingPoint& point = what.best[i];
@@ -118,6 +137,7 @@ Json what_to_run_to_json(const milling::WhatToRun& what) {
                  {"fastest_rpm", rpm_from_revolutions_per_s(point.fastest)},
                  {"removal_of_best",
                   point.depth_m * point.revolutions_per_s / (first.depth_m * first.revolutions_per_s)}};
+    if (point.at_edge) item["at_chart_edge"] = true;
     if (!what.rates.empty()) {
       item["removal_cm3_per_min"] = cm3_per_min_from_m3_per_s(what.rates[i].removal_m3_per_s);
       item["power_w"] = what.rates[i].power_w;
@@ -134,10 +154,12 @@ void read_columns(const Node& rows, const Shard& shard, Eigen::MatrixXd& grid) {
   if (static_cast<Eigen::Index>(items.size()) != grid.rows())
     rows.fail("expected " + std::to_string(grid.rows()) + " rows, one for each depth");
   for (Eigen::Index d = 0; d < grid.rows(); ++d) {
-    const Eigen::VectorXd row = items[d].numbers(kNotNegative);
     Eigen::Index column = shard.index - 1;
-    for (Eigen::Index s = 0; s < row.size(); ++s, column += shard.count) {
-      if (column < grid.cols()) grid(d, column) = row[s];
+    for (const Node& item : items[d].items()) {
+      if (column < grid.cols())
+        grid(d, column) =
+            item.is_null() ? std::numeric_limits<double>::quiet_NaN() : item.number(kNotNegative);
+      column += shard.count;
     }
     if (column - shard.count >= grid.cols() || column < grid.cols())
       items[d].fail("expected a number for each speed");
@@ -174,13 +196,14 @@ void take_part(const Node& root, const Shard& shard, bool with_grid, LobesDocume
   if (with_grid) read_columns(root.at("spectral_radius"), shard, chart.spectral_radius);
   if (with_grid && whole.sampled)
     read_columns(root.at("probability_stable"), shard, whole.sampled->stable_share);
-  const Eigen::VectorXd resolution = root.at("resolution").numbers(kPositive);
+  const Eigen::VectorXd resolution = root.at("resolution").numbers(kNotNegative);
   const auto limits = root.at("limit").items();
   if (resolution.size() != static_cast<Eigen::Index>(own.size()) || limits.size() != own.size())
     root.at("limit").fail("expected an entry for each speed");
   for (std::size_t s = 0; s < own.size(); ++s) {
     chart.error[column(s)] = root.at("convergence").number(kNotNegative);
     chart.resolution[column(s)] = static_cast<int>(resolution[s]);
+    if (limits[s].has("not_resolved")) chart.failure[column(s)] = limits[s].at("not_resolved").text();
     if (!whole.sampled) continue;
     const auto interval = limits[s].at("interval_95_mm").items(2);
     for (std::size_t end = 0; end < 2; ++end) {
@@ -214,7 +237,9 @@ Json lobes_to_json(const LobesDocument& lobes) {
                    {"method", spectral ? "spectral" : "sdm"},
                    {"convergence", lobes.convergence()}};
   if (spectral) {
-    const auto [least, largest] = std::minmax_element(chart.resolution.begin(), chart.resolution.end());
+    std::vector<int> points = chart.resolution;
+    std::erase(points, 0);  // speeds without an answer
+    const auto [least, largest] = std::minmax_element(points.begin(), points.end());
     document["points_per_arc"] = {{"least", *least}, {"largest", *largest}};
   } else {
     document["intervals"] = lobes.scheme.intervals;
@@ -224,11 +249,13 @@ Json lobes_to_json(const LobesDocument& lobes) {
         {"index", lobes.shard->index}, {"count", lobes.shard->count}, {"of", lobes.shard->of}};
     document["resolution"] = chart.resolution;
   }
+  const bool with_table = !lobes.tables.empty();
+  if (with_table) document["tables"] = lobes.tables;
   document["speed_rpm"] = lobes.speed_rpm;
   document["depth_mm"] = lobes.depth_mm;
   if (chart.spectral_radius.size() > 0) document["spectral_radius"] = rows_to_json(chart.spectral_radius);
-  document["limit"] = limit_to_json(lobes.speed_rpm, chart.crossings);
-  document["crossings"] = crossings_to_json(lobes.speed_rpm, chart.crossings);
+  document["limit"] = limit_to_json(lobes.speed_rpm, chart.crossings, chart.failure, with_table);
+  document["crossings"] = crossings_to_json(lobes.speed_rpm, chart.crossings, with_table);
   if (lobes.sampled) {
     document["samples"] = lobes.samples;
     if (lobes.sampled->stable_share.size() > 0)
@@ -242,7 +269,8 @@ Json lobes_to_json(const LobesDocument& lobes) {
   if (!lobes.per_mode.empty()) {
     Json list = Json::array();
     for (const milling::ModeLimit& limit : lobes.per_mode) {
-      list.push_back({{"mode", limit.mode + 1}, {"limit", limit_to_json(lobes.speed_rpm, limit.crossings)}});
+      list.push_back(
+          {{"mode", limit.mode + 1}, {"limit", limit_to_json(lobes.speed_rpm, limit.crossings, {}, false)}});
     }
     document["per_mode"] = std::move(list);
   }
@@ -265,6 +293,7 @@ void merge_parts(LobesDocument& whole, bool with_grid, const Json& whole_of,
   chart.crossings.assign(speeds, {});
   chart.error.assign(speeds, 0.0);
   chart.resolution.assign(speeds, 0);
+  chart.failure.assign(speeds, "");
   if (whole.samples > 0) {
     whole.sampled.emplace();
     if (with_grid) whole.sampled->stable_share.resize(depths, columns);

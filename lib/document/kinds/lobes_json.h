@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "document/measured/measured_cuts.h"
@@ -31,7 +32,8 @@ struct Shard {
 };
 
 struct LobesDocument {
-  Json cut;  ///< as used: the document's fields with the command line's in their place
+  Json cut;                         ///< as used: the document's fields with the command line's in their place
+  std::vector<std::string> tables;  ///< names, where the chart is for several
   milling::StabilityScheme scheme;
   std::optional<Shard> shard;
   std::vector<double> speed_rpm;

@@ -1,0 +1,44 @@
+// Eigenvalues of a circle operator from place to place of the unit circle. README.md, "The search on the unit
+// circle".
+#pragma once
+
+#include <cmath>
+#include <complex>
+#include <vector>
+
+namespace stablecut::milling {
+
+/// An eigenvalue at one place, and where it is known its derivative by the angle.
+struct Branch {
+  std::complex<double> value, slope;
+  bool has_slope = false;
+};
+
+/// Where an eigenvalue is real and positive.
+struct Crossing {
+  double angle = 0;
+  std::complex<double> value;
+};
+
+/// An angle of the unit circle with all eigenvalues there.
+struct Place {
+  double angle = 0;
+  std::vector<Branch> branches;
+  /// The stretch to the next place has been looked at, and what crosses the positive real axis in it.
+  bool settled = false;
+  std::vector<Crossing> crossings;
+};
+
+/// The modulus, without the care for overflow that std::abs takes.
+inline double size_of(std::complex<double> z) { return std::sqrt(std::norm(z)); }
+
+/// Whether an eigenvalue is so near the positive real axis beyond `least` that a derivative is worth its
+/// price.
+bool matters(std::complex<double> value, double least);
+
+/// Whether it is clear what crosses the positive real axis beyond `least` between two places, and what does.
+/// Eigenvalues may be wrong by `margin` times their size.
+bool clear_between(const Place& place, const Place& next, double least, double margin,
+                   std::vector<Crossing>& crossings);
+
+}  // namespace stablecut::milling

@@ -1,0 +1,49 @@
+// Every depth at which a multiplier passes the unit circle, at one speed. README.md, "Limits from the unit
+// circle".
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+#include <optional>
+#include <vector>
+
+#include "milling/circle_lanes.h"
+#include "milling/circle_operator.h"
+
+namespace stablecut::milling {
+
+/// A depth with a multiplier on the unit circle, at an angle in [0, pi]; its conjugate is meant too.
+struct CirclePassage {
+  double depth_m = 0;
+  double angle = 0;  ///< of the multiplier
+  bool outwards = true;
+  bool is_real = false;         ///< +1 or -1: passes alone
+  std::complex<double> value;   ///< the eigenvalue of M: 1 / depth
+  std::complex<double> slope;   ///< its derivative by the angle
+  Eigen::VectorXcd difference;  ///< [rows] what the rows sense, to a factor
+
+  /// Of the number of multipliers outside the circle.
+  int change() const { return (outwards ? 1 : -1) * (is_real ? 1 : 2); }
+};
+
+struct CirclePassages {
+  std::vector<CirclePassage> found;  ///< by depth
+  int unstable = 0;                  ///< multipliers outside the circle at the largest depth, as they passed
+  /// Whether `unstable` was confirmed by the winding number of det(I - depth M).
+  bool confirmed = false;
+  /// The eigenvalue of M on the circle that is nearest to a limit; none where M has none to speak of.
+  std::optional<CirclePassage> nearest;
+
+  /// Those at which the cut becomes unstable (outwards) or stable again.
+  std::vector<const CirclePassage*> boundaries() const;
+};
+
+/// All passages between depth 0 and the largest. `structure` stable.
+CirclePassages circle_passages(const TipStructure& structure, const Collocation& collocation, double period_s,
+                               double largest_depth_m);
+
+/// The largest change of the boundaries' multipliers when another operator of the same cut takes the place of
+/// theirs; of the nearest eigenvalue where there is no passage.
+double largest_change(const CirclePassages& passages, const CircleOperator& other);
+
+}  // namespace stablecut::milling

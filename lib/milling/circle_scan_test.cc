@@ -1,0 +1,130 @@
+#include "milling/circle_scan.h"
+
+#include <Eigen/Eigenvalues>
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "base/range.h"
+#include "base/units.h"
+#include "milling/depth_scan.h"
+#include "milling/limits.h"
+#include "milling/milling_fixtures_test.h"
+#include "milling/spectral.h"
+
+using namespace stablecut;
+using namespace stablecut::milling;
+
+namespace {
+
+struct Cut {
+  TipStructure structure;
+  Cutter cutter;
+  double revolutions_per_s = 0, largest_depth_m = 0;
+  int points = 0;
+
+  Collocation collocation() const {
+    return collocate(structure, cut_schedule(cutter, revolutions_per_s, 0), revolutions_per_s, points);
+  }
+  double period_s() const {
+    return cut_schedule(cutter, revolutions_per_s, 0).period_rad / (kTwoPi * revolutions_per_s);
+  }
+};
+
+Cut random_cut(unsigned seed) {
+  std::mt19937_64 generator(seed);
+  const auto uniform = [&](double from, double to) {
+    return from + (to - from) * static_cast<double>(generator() >> 11) * 0x1p-53;
+  };
+  const int modes = 1 + static_cast<int>(uniform(0, 20)), teeth = 1 + static_cast<int>(uniform(0, 8));
+  Cut cut{tip_structure(fixtures::coupled_modes(modes, 100 + seed)),
+          fixtures::benchmark_cutter(uniform(0, 1) < 0.5, uniform(0.02, 1), teeth)};
+  cut.cutter.feed_angle_rad = uniform(0, 3);
+  cut.revolutions_per_s = uniform(60, 400);
+  cut.largest_depth_m = uniform(1e-3, 6e-3);
+  cut.points =
+      first_guess_of_points(cut.structure, cut.cutter, cut.revolutions_per_s, cut.largest_depth_m) + 4;
+  return cut;
+}
+
+}  // namespace
+
+// The same collocation, but another way through it: the circle knows no depth scan and no period map.
+TEST_CASE(
+    "passages of the unit circle are the boundaries of a depth scan, and count what a dense solver counts") {
+  int boundaries = 0, counted = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    const Cut cut = random_cut(seed);
+    INFO("seed " << seed);
+    const CirclePassages passages =
+        circle_passages(cut.structure, cut.collocation(), cut.period_s(), cut.largest_depth_m);
+    CHECK(passages.confirmed);
+    const SpectralMap map(cut.structure, cut.cutter, cut.revolutions_per_s, cut.points);
+    const auto scanned = DepthScan(map, cut.largest_depth_m).boundaries();
+    const auto found = passages.boundaries();
+    REQUIRE(found.size() == scanned.size());
+    for (std::size_t i = 0; i < found.size(); ++i, ++boundaries) {
+      CHECK(std::abs(found[i]->depth_m - scanned[i].depth_m) < 1e-7 * cut.largest_depth_m);
+      CHECK(found[i]->outwards == scanned[i].unstable_above);
+    }
+    for (const double depth : Range{0.1, 1, 10}.values()) {
+      const double a = depth * cut.largest_depth_m;
+      const Eigen::VectorXd moduli =
+          Eigen::EigenSolver<Eigen::MatrixXd>(map.monodromy(a), false).eigenvalues().cwiseAbs();
+      // Above a map that has nearly a pole nothing is certain, and neither next to the circle.
+      if (moduli.maxCoeff() > 1e8 || ((moduli.array() - 1).abs() < 1e-6).any()) continue;
+      int outside = 0;
+      for (const CirclePassage& passage : passages.found)
+        outside += passage.depth_m < a ? passage.change() : 0;
+      CHECK(outside == (moduli.array() > 1).count());
+      ++counted;
+    }
+  }
+  CHECK(boundaries >= 25);
+  CHECK(counted >= 300);
+}
+
+// A wall of 1e5 N/m with a damping ratio of 0.001 chatters below a thousandth of the depths that are asked
+// for.
+TEST_CASE("a limit far below the largest depth is found") {
+  dynamics::ModalModel model = fixtures::oscillator({"x"});
+  dynamics::Mode& mode = model.modes[0];
+  mode.frequency_hz = 500;
+  mode.damping_ratio = 0.001;
+  const double mass = 1e5 / std::pow(kTwoPi * 500, 2);
+  mode.psi_l = mode.psi_r / std::complex<double>(0, 2 * mass * mode.pole().imag());
+  Cutter cutter = fixtures::benchmark_cutter(false, 1, 4);
+  cutter.kt_n_per_m2 = 2000e6;
+  for (const double rpm : {9428.0, 9714.0, 10000.0}) {
+    const TipStructure structure = tip_structure(model);
+    const SpeedLimits limits = speed_limits(structure, cutter, rpm / 60, 20e-3);
+    REQUIRE(!limits.crossings.empty());
+    const double depth = limits.crossings.front().depth_m;
+    CHECK(depth < 0.32e-3);
+    const SpectralMap map(structure, cutter, rpm / 60, 30);
+    CHECK(std::abs(spectral_radius(map, depth) - 1) < 1e-7);
+    CHECK(spectral_radius(map, 0.999 * depth) < 1);
+    CHECK(spectral_radius(map, 1.001 * depth) > 1);
+  }
+}
+
+TEST_CASE("fewer polynomials than nodes have the limits of many, also beside a mode far above the band") {
+  dynamics::ModalModel model = fixtures::oscillator({"x", "y"});
+  dynamics::Mode stand_in = model.modes[0];
+  stand_in.frequency_hz = 9000;
+  stand_in.damping_ratio = 0.06;
+  stand_in.psi_l *= 0.01;
+  model.modes.push_back(stand_in);
+  const TipStructure structure = tip_structure(model);
+  const Cutter cutter = fixtures::benchmark_cutter(true, 0.25);
+  int limits = 0;
+  for (const double speed : Range{60, 300, 9}.values()) {
+    const SpeedLimits few = speed_limits(structure, cutter, speed, 6e-3);
+    const SpeedLimits many = speed_limits(structure, cutter, speed, 6e-3, 2 * few.resolution + 40);
+    REQUIRE(few.crossings.size() == many.crossings.size());
+    for (std::size_t i = 0; i < few.crossings.size(); ++i, ++limits) {
+      CHECK(few.crossings[i].depth_m == Approx(many.crossings[i].depth_m).epsilon(1e-3));
+      CHECK(few.crossings[i].kind == many.crossings[i].kind);
+    }
+  }
+  CHECK(limits >= 6);
+}

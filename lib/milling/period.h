@@ -1,0 +1,52 @@
+// The map of one period at one speed, with as many points as it needs. README.md, "How many points".
+#pragma once
+
+#include <memory>
+
+#include "milling/cutter.h"
+#include "milling/floquet.h"
+#include "milling/structure.h"
+
+namespace stablecut::milling {
+
+enum class StabilityMethod {
+  kSpectral,            ///< collocation on the arcs in cut, refined until it has converged
+  kSemiDiscretization,  ///< the zeroth-order scheme of [RobotMillingThesis] at a given number of intervals
+};
+
+struct StabilityScheme {
+  StabilityMethod method = StabilityMethod::kSpectral;
+  int intervals = 40;  ///< m, for the semi-discretization
+};
+
+/// A period map at one speed with what is known of its error. README.md, "How many points".
+struct PreparedPeriod {
+  std::unique_ptr<PeriodMap> map;
+  /// Estimated error of the spectral radius, of max(1, radius): the change when points are added (spectral),
+  /// or the distance to the spectral method (semi-discretization); the largest at a few depths.
+  double error = 0;
+  int resolution = 0;  ///< points on the longest piece of the cut, or intervals
+};
+
+/// The map at one speed, for depths up to `largest_depth_m`; where the radius is above 100 its error is not
+/// looked at. The structure must outlive the map. Throws NoAnswer, with Remedy::kModes, when the speed is so
+/// low that the fastest mode cannot be followed through one cut, or when the radius does not converge.
+PreparedPeriod prepare_period(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
+                              const StabilityScheme& scheme, double largest_depth_m);
+
+/// Points on the longest piece that should be near convergence. Throws NoAnswer where they are too many.
+int first_guess_of_points(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
+                          double largest_depth_m);
+/// The number of points to try after `points`.
+int more_points(int points);
+/// The most points that are tried, and the change of a radius that is small enough.
+int most_points(const Cutter& cutter, int first_guess);
+double wanted_change(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
+                     double largest_depth_m);
+
+/// Throws NoAnswer that names the speed.
+[[noreturn]] void fail_at(double revolutions_per_s, const std::string& what);
+/// Where an error is so large that there is no answer, fails; else returns.
+void refuse_useless(double revolutions_per_s, double error);
+
+}  // namespace stablecut::milling
