@@ -11,8 +11,8 @@ namespace {
 // Limits between the curve's speeds: so many for each of them at most, and so many at least; where a limit is
 // dear, one for so many.
 constexpr std::size_t kMostBetween = 4, kLeastBetween = 400, kSpeedsForOneDear = 4;
-// A limit with more points on an arc is dear, and so is one of helical teeth or unequal pitches.
-constexpr int kCheapPoints = 48;
+// A limit with more rows is dear, and so is one of helical teeth, unequal pitches or process damping.
+constexpr int kCheapRows = 48;
 
 OperatingLimits limits_of(const RunRequest& request, const Cutter& cutter, double largest_depth_m) {
   OperatingLimits limits;
@@ -74,8 +74,10 @@ WhatToRun what_to_run(const std::vector<TipStructure>& structures, const Cutter&
     if (point.depth_m) lowest = std::min(lowest, *point.depth_m);
   }
   const int points = *std::max_element(curve.resolution.begin(), curve.resolution.end());
+  const bool one_in_cut = cutter.exit_rad - cutter.entry_rad <= cutter.mean_pitch_rad();
   const bool cheap = curve.method == StabilityMethod::kSpectral && cutter.equal_pitch() &&
-                     cutter.lag_rad_per_m == 0 && points <= kCheapPoints;
+                     cutter.lag_rad_per_m == 0 && cutter.damping_n_per_m == 0 &&
+                     points * (one_in_cut ? 1 : 2) <= kCheapRows;
   const std::size_t most =
       cheap ? kMostBetween * speeds.size() + kLeastBetween : speeds.size() / kSpeedsForOneDear;
   for (const double speed : speeds_between(structures, cutter, speeds, lowest, most))
