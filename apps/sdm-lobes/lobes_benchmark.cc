@@ -109,8 +109,8 @@ void the_thesis_case(const Case& thesis) {
     for (const double speed : thesis.speeds) {
       const auto period =
           milling::prepare_period(thesis.structure, thesis.cutter, speed, {}, thesis.depths.back());
-      sink +=
-          static_cast<double>(milling::scanned_limits(period, thesis.depths.back(), 1e-3).crossings.size());
+      const milling::DepthScan scan(*period.map, thesis.depths.back(), milling::DepthScan::kForLimits);
+      sink += static_cast<double>(milling::scanned_crossings(scan, *period.map, 1e-3).size());
     }
   });
   std::printf(

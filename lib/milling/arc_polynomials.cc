@@ -14,6 +14,24 @@ namespace {
 constexpr int kShortArcPolynomials = 5;
 constexpr double kRoundingOfShare = 1e-6;
 
+// How many polynomials each arc has.
+std::vector<Eigen::Index> counts_of(const Collocation& collocation, Eigen::Index most) {
+  std::vector<double> lengths;
+  for (const CollocationArc& arc : collocation.arcs) {
+    lengths.push_back(0);
+    for (const std::size_t node : arc.nodes) lengths.back() += collocation.nodes[node].weight_s;
+  }
+  const double longest = lengths.empty() ? 1 : *std::max_element(lengths.begin(), lengths.end());
+  std::vector<Eigen::Index> counts;
+  for (std::size_t a = 0; a < lengths.size(); ++a) {
+    const auto share = static_cast<Eigen::Index>(
+        std::ceil(lengths[a] / longest * static_cast<double>(most) - kRoundingOfShare));
+    counts.push_back(std::clamp<Eigen::Index>(std::min(most, share + kShortArcPolynomials), 1,
+                                              static_cast<Eigen::Index>(collocation.arcs[a].nodes.size())));
+  }
+  return counts;
+}
+
 }  // namespace
 
 Eigen::VectorXd root_weights(const Collocation& collocation) {
@@ -25,32 +43,20 @@ Eigen::VectorXd root_weights(const Collocation& collocation) {
 }
 
 Eigen::MatrixXd arc_polynomials(const Collocation& collocation, Eigen::Index most) {
-  const auto length = [&](const CollocationArc& arc) {
-    double sum = 0;
-    for (const std::size_t node : arc.nodes) sum += collocation.nodes[node].weight_s;
-    return sum;
-  };
-  double longest = 0;
-  for (const CollocationArc& arc : collocation.arcs) longest = std::max(longest, length(arc));
-  const auto count_on = [&](const CollocationArc& arc) {
-    const auto share = static_cast<Eigen::Index>(
-        std::ceil(length(arc) / longest * static_cast<double>(most) - kRoundingOfShare));
-    return std::clamp<Eigen::Index>(std::min(most, share + kShortArcPolynomials), 1,
-                                    static_cast<Eigen::Index>(arc.nodes.size()));
-  };
+  const std::vector<Eigen::Index> counts = counts_of(collocation, most);
   const auto rows = static_cast<Eigen::Index>(collocation.rows.size());
   Eigen::MatrixXd basis(rows, 0);
   if (!collocation.polynomials.empty()) {
     std::vector<Eigen::Index> kept;
     for (Eigen::Index r = 0; r < rows; ++r) {
-      if (collocation.polynomials[r].degree < count_on(collocation.arcs[collocation.polynomials[r].arc]))
-        kept.push_back(r);
+      if (collocation.polynomials[r].degree < counts[collocation.polynomials[r].arc]) kept.push_back(r);
     }
     return Eigen::MatrixXd::Identity(rows, rows)(Eigen::all, kept);
   }
-  for (const CollocationArc& arc : collocation.arcs) {
+  for (std::size_t a = 0; a < collocation.arcs.size(); ++a) {
+    const CollocationArc& arc = collocation.arcs[a];
     const auto points = static_cast<Eigen::Index>(arc.nodes.size());
-    const Eigen::Index count = count_on(arc);
+    const Eigen::Index count = counts[a];
     Eigen::MatrixXd values(points, count);
     for (Eigen::Index i = 0; i < points; ++i)
       values.row(i) = std::sqrt(collocation.nodes[arc.nodes[i]].weight_s) *
@@ -74,8 +80,6 @@ Eigen::MatrixXd arc_polynomials(const Collocation& collocation, Eigen::Index mos
   return basis;
 }
 
-// The same with polynomials along the arcs in the place of the nodes' values: of every piece that was cut by
-// itself one period earlier.
 Collocation along_arcs(const Collocation& c, Eigen::Index most) {
   const Eigen::MatrixXd basis = arc_polynomials(c, most);
   Eigen::VectorXd weight = root_weights(c);
@@ -91,17 +95,14 @@ Collocation along_arcs(const Collocation& c, Eigen::Index most) {
   result.difference_of_drive = to * c.difference_of_drive * result.lift;
   result.sensed_of_state = result.difference_of_state;
   result.sensed_of_drive = result.difference_of_drive;
+  // In the order of the basis: arc by arc, the polynomials of one kind of row after those of the other.
+  const std::vector<Eigen::Index> counts = counts_of(c, most);
   for (std::size_t a = 0; a < c.arcs.size(); ++a) {
     const CollocationNode& node = c.nodes[c.arcs[a].nodes.front()];
-    // Columns of one kind of row follow each other.
-    for (Eigen::Index r = node.first_row; r < node.end_row(); ++r) {
-      const SensedRow& like = c.rows[r];
-      for (Eigen::Index degree = 0;
-           static_cast<Eigen::Index>(result.rows.size()) < basis.cols() &&
-           !basis.block(r, static_cast<Eigen::Index>(result.rows.size()), 1, 1).isZero(0);
-           ++degree) {
-        SensedRow row = like;
-        if (!like.is_velocity) {
+    for (Eigen::Index like = node.first_row; like < node.end_row(); ++like) {
+      for (Eigen::Index degree = 0; degree < counts[a]; ++degree) {
+        SensedRow row = c.rows[like];
+        if (!row.is_velocity) {
           row.cut_by = static_cast<Eigen::Index>(result.rows.size());
           row.remembered = result.remembered_count++;
         }

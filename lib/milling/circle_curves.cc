@@ -23,9 +23,9 @@ constexpr double kOutOfReach = 0.9;
 // A branch over a stretch of angle, in s from 0 to 1.
 struct Curve {
   Complex from, to, slope_from, slope_to;  // slopes times the stretch
-  bool cubic;
-  bool slope_at_end;  // of a quadratic, the slope that is known
-  double error;
+  bool cubic = false;
+  bool slope_at_end = false;  // of a quadratic, the slope that is known
+  double error = 0;
   double margin = 0;  // of the size: how wrong the eigenvalues may be
 
   Complex at(double s) const {
@@ -46,8 +46,13 @@ struct Curve {
 Curve curve_between(const Place& a, std::size_t i, const Place& b, std::size_t j) {
   const double stretch = b.angle - a.angle;
   const Branch &x = a.branches[i], &y = b.branches[j];
-  Curve c{x.value, y.value, stretch * x.slope, stretch * y.slope, x.has_slope && y.has_slope, !x.has_slope,
-          0,       0};
+  Curve c;
+  c.from = x.value;
+  c.to = y.value;
+  c.slope_from = stretch * x.slope;
+  c.slope_to = stretch * y.slope;
+  c.cubic = x.has_slope && y.has_slope;
+  c.slope_at_end = !x.has_slope;
   const Complex step = y.value - x.value;
   if (c.cubic)
     c.error = kCubicShare * size_of(step - (c.slope_from + c.slope_to) / 2.0);
@@ -81,64 +86,54 @@ std::vector<Pairing> pairings(const Place& a, const Place& b) {
   return chosen;
 }
 
+// On which side of the positive real axis beyond `least` a point of a curve is.
+enum class Side { kAbove, kBelow, kFar, kUncertain };
+
+Side side_of(const Curve& c, double s, double least) {
+  const Complex z = c.at(s);
+  const double error = c.error * c.bump(s) + (c.margin > 0 ? c.margin * size_of(z) : 0);
+  if (z.real() + error < kOutOfReach * least) return Side::kFar;
+  if (std::abs(z.imag()) <= error) return Side::kUncertain;
+  return z.imag() > 0 ? Side::kAbove : Side::kBelow;
+}
+
+// Where the imaginary part changes its sign between two places (s).
+double zero_between(const Curve& c, double low, double high) {
+  const bool above = c.at(low).imag() > 0;
+  for (int k = 0; k < kBisections; ++k) {
+    const double middle = (low + high) / 2;
+    ((c.at(middle).imag() > 0) == above ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
 // Whether it is clear where the curve crosses the positive real axis beyond `least`, and the places (s).
 bool clear_crossings(const Curve& c, double least, std::vector<Crossing>& found) {
-  // The sign of the imaginary part where it is certain; 0 where it is not, and 2 where the axis is out of
-  // reach.
-  int last = 0;
+  Side last = Side::kUncertain;
   double last_s = 0;
-  bool uncertain_between = false;
-  int uncertain_run = 0;
+  int uncertain = 0;  // points since the last one whose side is certain
   for (int i = 0; i <= kBetween; ++i) {
     const double s = static_cast<double>(i) / kBetween;
-    const Complex z = c.at(s);
-    const double error = c.error * c.bump(s) + (c.margin > 0 ? c.margin * size_of(z) : 0);
-    const double beyond = z.real() + error;
-    int sign = 0;
-    if (beyond < kOutOfReach * least) {
-      // The nearest point of the ray is its end.
-      sign = 2;
-    } else if (std::abs(z.imag()) > error) {
-      sign = z.imag() > 0 ? 1 : -1;
-    }
-    if (sign == 0) {
+    const Side side = side_of(c, s, least);
+    if (side == Side::kUncertain) {
       // Ends lie exactly where they are; on the axis only where the multiplier is real.
-      if (i == 0 || i == kBetween) continue;
-      uncertain_between = true;
-      ++uncertain_run;
+      if (i > 0 && i < kBetween) ++uncertain;
       continue;
     }
-    if (sign == 2) {
-      last = 2;
-      last_s = s;
-      uncertain_between = false;
-      uncertain_run = 0;
-      continue;
+    const bool crosses =
+        (last == Side::kAbove && side == Side::kBelow) || (last == Side::kBelow && side == Side::kAbove);
+    if (crosses) {
+      const double zero = zero_between(c, last_s, s);
+      found.push_back({zero, c.at(zero)});
+      if (uncertain > kBetween / 2) return false;
+    } else if (uncertain > 0) {
+      return false;  // it may touch the axis
     }
-    if (last == 1 || last == -1) {
-      if (sign != last) {
-        // A sure crossing; by bisection of the curve.
-        double low = last_s, high = s;
-        for (int k = 0; k < kBisections; ++k) {
-          const double middle = (low + high) / 2;
-          ((c.at(middle).imag() > 0 ? 1 : -1) == last ? low : high) = middle;
-        }
-        found.push_back({(low + high) / 2, c.at((low + high) / 2)});
-        if (uncertain_run > kBetween / 2) return false;
-      } else if (uncertain_between) {
-        return false;  // may touch the axis
-      }
-    } else if (last == 0 && uncertain_between) {
-      return false;
-    } else if (last == 2 && uncertain_between) {
-      return false;
-    }
-    last = sign;
+    last = side;
     last_s = s;
-    uncertain_between = false;
-    uncertain_run = 0;
+    uncertain = 0;
   }
-  return !uncertain_between;
+  return uncertain == 0;
 }
 
 }  // namespace
@@ -148,7 +143,6 @@ bool matters(Complex value, double least) {
   return size >= kSmall * least && value.real() >= kSector * size;
 }
 
-// Whether it is clear what crosses the axis between two places, and what does.
 bool clear_between(const Place& place, const Place& next, double least, double margin,
                    std::vector<Crossing>& crossings) {
   const std::vector<Pairing> pairs = pairings(place, next);

@@ -156,7 +156,7 @@ CircleLanes::CircleLanes(const CircleOperator& of)
     return result;
   };
   terms_ = terms(of.direct, of.of_state);
-  if (!of.plain) terms_before_ = terms(of.direct_before, of.of_state_before);
+  if (!of.plain()) terms_before_ = terms(of.direct_before, of.of_state_before);
 }
 
 void CircleLanes::form(const Angles& angles) {
@@ -164,7 +164,7 @@ void CircleLanes::form(const Angles& angles) {
   for (Eigen::Index lane = 0; lane < kLanes; ++lane) {
     const Complex mu = std::polar(1.0, angles[lane]), i_mu(-mu.imag(), mu.real());
     put(std::conj(mu), lane, before);
-    put(of_.plain ? 1.0 - std::conj(mu) : 1.0, lane, scale);
+    put(of_.plain() ? 1.0 - std::conj(mu) : 1.0, lane, scale);
     for (Eigen::Index g = 0; g < groups_; ++g) {
       // (mu - free flight)^-1 of one mode is [a -b; b a].
       const Complex first = reciprocal(mu - growth_[g]), second = reciprocal(mu - std::conj(growth_[g]));
@@ -178,7 +178,7 @@ void CircleLanes::form(const Angles& angles) {
     }
   }
   form_matrix(terms_.data(), size_ * size_, groups_, factors_.data(), scale, false, eigen_.matrix());
-  if (!of_.plain)
+  if (!of_.plain())
     form_matrix(terms_before_.data(), size_ * size_, groups_, factors_.data(), before, true, eigen_.matrix());
   eigen_.reduce();
 }
@@ -187,7 +187,7 @@ EigenvalueLanes CircleLanes::refined(const std::array<Complex, kPlaces>& shifts)
   eigen_.vectors(shifts, right_.data(), left_.data());
   const Arrays arrays{size_,
                       modes_,
-                      of_.plain,
+                      of_.plain(),
                       of_.direct.data(),
                       of_.direct_before.data(),
                       of_.of_state.data(),
@@ -206,10 +206,10 @@ EigenvalueLanes CircleLanes::refined(const std::array<Complex, kPlaces>& shifts)
   return lanes;
 }
 
-Eigen::VectorXcd CircleLanes::vector_of(const numerics::LaneArray& lanes, std::size_t place) const {
+Eigen::VectorXcd CircleLanes::right(std::size_t place) const {
   Eigen::VectorXcd vector(size_);
   for (Eigen::Index i = 0; i < size_; ++i)
-    vector[i] = get(lanes.data() + i * kComplexLanes, static_cast<Eigen::Index>(place));
+    vector[i] = get(right_.data() + i * kComplexLanes, static_cast<Eigen::Index>(place));
   return vector;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <complex>
 #include <vector>
@@ -38,13 +39,18 @@ class CircleLanes {
   std::array<std::complex<double>, kPlaces> determinant_phases(double depth_m) {
     return eigen_.determinant_phases(1 / depth_m);
   }
-  /// Right and left vector of the last refined().
-  Eigen::VectorXcd right(std::size_t place) const { return vector_of(right_, place); }
-  Eigen::VectorXcd left(std::size_t place) const { return vector_of(left_, place); }
+  /// Right vector of the last refined().
+  Eigen::VectorXcd right(std::size_t place) const;
+
+  /// Eight of some items, from `first` on; where there are fewer the last one again and again.
+  template <typename T>
+  static std::array<T, kPlaces> eight_from(const std::vector<T>& items, std::size_t first) {
+    std::array<T, kPlaces> eight;
+    for (std::size_t i = 0; i < kPlaces; ++i) eight[i] = items[std::min(first + i, items.size() - 1)];
+    return eight;
+  }
 
  private:
-  Eigen::VectorXcd vector_of(const numerics::LaneArray& lanes, std::size_t place) const;
-
   const CircleOperator& of_;
   Eigen::Index size_, modes_, groups_;
   std::vector<Eigen::Index> group_of_;        // [modes] those with equal poles together

@@ -21,8 +21,9 @@ struct CircleOperator {
   Eigen::MatrixXd of_state, of_state_before;  ///< U, U' [size x 2 modes]
   Eigen::MatrixXd state_of;                   ///< B [2 modes x size]
   Eigen::VectorXcd growth;                    ///< [modes] what free flight multiplies each mode by
-  bool plain = false;  ///< V' = -V and U' = -U: every surface was cut one period earlier
 
+  /// Every surface was cut one period earlier: V' = -V and U' = -U, which are not kept.
+  bool plain() const { return direct_before.size() == 0; }
   Eigen::Index size() const { return direct.rows(); }
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/units.h"
 #include "milling/arc_polynomials.h"
@@ -41,8 +42,7 @@ std::optional<int> winding(CircleLanes& lanes, std::vector<double> angles, doubl
   while (!angles.empty()) {
     for (std::size_t first = 0; first < angles.size(); first += CircleLanes::kPlaces) {
       const std::size_t count = std::min(CircleLanes::kPlaces, angles.size() - first);
-      CircleLanes::Angles eight;
-      for (std::size_t i = 0; i < eight.size(); ++i) eight[i] = angles[first + std::min(i, count - 1)];
+      const CircleLanes::Angles eight = CircleLanes::eight_from(angles, first);
       lanes.form(eight);
       const auto phases = lanes.determinant_phases(depth_m);
       for (std::size_t i = 0; i < count; ++i) known.emplace_back(eight[i], phases[i]);
@@ -73,34 +73,35 @@ class Refinement {
   std::vector<CirclePassage> passages(const std::vector<Start>& starts, double stretch) {
     std::vector<CirclePassage> result;
     for (std::size_t first = 0; first < starts.size(); first += CircleLanes::kPlaces) {
+      auto eight = CircleLanes::eight_from(starts, first);
       const std::size_t count = std::min(CircleLanes::kPlaces, starts.size() - first);
-      std::array<Start, CircleLanes::kPlaces> own;
-      for (std::size_t i = 0; i < own.size(); ++i) own[i] = starts[first + std::min(i, count - 1)];
-      std::array<bool, CircleLanes::kPlaces> done{};
-      for (int step = 0; step < kMostSteps; ++step) {
-        CircleLanes::Angles angles;
-        std::array<Complex, CircleLanes::kPlaces> shifts;
-        for (std::size_t i = 0; i < own.size(); ++i) {
-          angles[i] = own[i].angle;
-          shifts[i] = own[i].value;
-        }
-        lanes_.form(angles);
-        const EigenvalueLanes eigen = lanes_.refined(shifts);
-        for (std::size_t i = 0; i < count; ++i) {
-          if (done[i]) continue;
-          const Complex value = eigen.value[i], slope = eigen.slope[i];
-          done[i] = arrived(own[i], value);
-          if (done[i])
-            result.push_back(passage(own[i], value, slope, i));
+      std::vector<std::size_t> underway(count);
+      std::iota(underway.begin(), underway.end(), std::size_t{0});
+      for (int step = 0; step < kMostSteps && !underway.empty(); ++step) {
+        const EigenvalueLanes eigen = values_near(eight);
+        std::erase_if(underway, [&](std::size_t i) {
+          const bool there = arrived(eight[i], eigen.value[i]);
+          if (there)
+            result.push_back(passage(eight[i], eigen.value[i], eigen.slope[i], i));
           else
-            own[i] = next(own[i], value, slope, stretch);
-        }
-        if (std::all_of(done.begin(), done.begin() + static_cast<std::ptrdiff_t>(count),
-                        [](bool d) { return d; }))
-          break;
+            eight[i] = next(eight[i], eigen.value[i], eigen.slope[i], stretch);
+          return there;
+        });
       }
     }
     return result;
+  }
+
+  // The eigenvalues near those of the starts, at their angles.
+  EigenvalueLanes values_near(const std::array<Start, CircleLanes::kPlaces>& starts) {
+    CircleLanes::Angles angles;
+    std::array<Complex, CircleLanes::kPlaces> shifts;
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+      angles[i] = starts[i].angle;
+      shifts[i] = starts[i].value;
+    }
+    lanes_.form(angles);
+    return lanes_.refined(shifts);
   }
 
  private:
@@ -232,27 +233,20 @@ CirclePassages circle_passages(const TipStructure& structure, const Collocation&
     if (result.confirmed) break;
   }
   while (!result.found.empty() && result.found.back().depth_m > largest_depth_m) result.found.pop_back();
-  result.unstable = unstable_at(result.found, largest_depth_m);
   return result;
 }
 
 double largest_change(const CirclePassages& passages, const CircleOperator& other) {
   std::vector<const CirclePassage*> all = passages.boundaries();
   if (all.empty() && passages.nearest) all.push_back(&*passages.nearest);
-  CircleLanes lanes(other);
+  std::vector<Start> starts;
+  for (const CirclePassage* passage : all) starts.push_back({passage->angle, passage->value, Seek::kValue});
+  Refinement there(other, Eigen::VectorXd::Ones(other.size()));
   double change = 0;
   for (std::size_t first = 0; first < all.size(); first += CircleLanes::kPlaces) {
-    CircleLanes::Angles angles;
-    std::array<Complex, CircleLanes::kPlaces> shifts;
-    for (std::size_t i = 0; i < angles.size(); ++i) {
-      const CirclePassage& own = *all[std::min(first + i, all.size() - 1)];
-      angles[i] = own.angle;
-      shifts[i] = own.value;
-    }
-    lanes.form(angles);
-    const EigenvalueLanes eigen = lanes.refined(shifts);
-    for (std::size_t i = 0; i < angles.size() && first + i < all.size(); ++i)
-      change = std::max(change, std::abs((eigen.value[i] - shifts[i]) / all[first + i]->slope));
+    const EigenvalueLanes eigen = there.values_near(CircleLanes::eight_from(starts, first));
+    for (std::size_t i = 0; i < CircleLanes::kPlaces && first + i < all.size(); ++i)
+      change = std::max(change, std::abs((eigen.value[i] - all[first + i]->value) / all[first + i]->slope));
   }
   return change;
 }

@@ -28,8 +28,7 @@ struct CirclePassage {
 
 struct CirclePassages {
   std::vector<CirclePassage> found;  ///< by depth
-  int unstable = 0;                  ///< multipliers outside the circle at the largest depth, as they passed
-  /// Whether `unstable` was confirmed by the winding number of det(I - depth M).
+  /// Whether the winding number of det(I - depth M) agrees with them at several depths.
   bool confirmed = false;
   /// The eigenvalue of M on the circle that is nearest to a limit; none where M has none to speak of.
   std::optional<CirclePassage> nearest;

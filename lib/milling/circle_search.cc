@@ -181,9 +181,7 @@ void CircleSearch::add(const std::vector<double>& angles) {
   auto at = places_.begin();
   for (std::size_t first = 0; first < angles.size(); first += CircleLanes::kPlaces) {
     const std::size_t count = std::min(CircleLanes::kPlaces, angles.size() - first);
-    CircleLanes::Angles eight;
-    for (std::size_t i = 0; i < eight.size(); ++i) eight[i] = angles[first + std::min(i, count - 1)];
-    for (Place& place : computed(eight, count)) {
+    for (Place& place : computed(CircleLanes::eight_from(angles, first), count)) {
       while (at != places_.end() && at->angle < place.angle) ++at;
       if (at != places_.end() && at->angle == place.angle) continue;
       if (at != places_.begin()) std::prev(at)->settled = false;

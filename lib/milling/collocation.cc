@@ -22,8 +22,8 @@ constexpr double kSameLength = 1e-12;
 constexpr double kRoundingShare = 1e-6;
 // Points that a short piece has beside its share of the longest one's.
 constexpr int kShortPiecePoints = 5;
-// Nodes beside those polynomials, or for each radian that the fastest mode turns in half of the longest
-// piece.
+// Nodes on a piece: so many more than there are polynomials, or than the fastest mode's radians in half of it
+// times kNodesPerRadian.
 constexpr int kSpareNodes = 4;
 constexpr double kNodesPerRadian = 0.6;
 
@@ -182,7 +182,6 @@ class Builder {
   }
 
   void add_to_arc(const CutPiece& piece, const PlacedPiece& placed) {
-    // A schedule made by hand has no arcs: each piece is one.
     const bool own = piece.arc_rad == 0;
     const std::size_t index = own ? pieces_.size() : piece.arc;
     if (result_.arcs.size() <= index) result_.arcs.resize(index + 1);
@@ -307,7 +306,7 @@ Collocation collocate(const TipStructure& structure, const CutSchedule& schedule
   bool along = rows == Rows::kByPolynomial && schedule.passes == 1;
   for (std::size_t p = 0; p < schedule.pieces.size(); ++p)
     along = along && schedule.pieces[p].cut_by == p && schedule.pieces[p].in_period_before &&
-            schedule.pieces[p].arc == p;
+            schedule.pieces[p].arc_rad == 0;
   int nodes = points;
   if (along) {
     const double fastest = structure.lambda.imag().cwiseAbs().maxCoeff();

@@ -109,7 +109,7 @@ struct Pass {
 
   // A piece on which teeth are in cut whose tips are at the turn plus these angles.
   CutPiece piece(double from, double to, const std::vector<double>& teeth) const {
-    CutPiece piece{from, to, {}, {}, 0, true, 0, to - from, 0};
+    CutPiece piece{from, to, {}, {}};
     const auto coefficients = [cutter = cutter, teeth, lag = lag_rad](const ForceCoefficients& k) {
       return [=](double turn) {
         std::vector<double> angles = teeth;
@@ -139,7 +139,7 @@ CutSchedule schedule_of_equal_pitch(const Pass& pass) {
       teeth.push_back(start + j * pitch);
     if (teeth.empty()) continue;
     CutPiece piece = pass.piece(ends[i] - start, ends[i + 1] - start, teeth);
-    piece.cut_by = piece.arc = schedule.pieces.size();
+    piece.cut_by = schedule.pieces.size();
     schedule.pieces.push_back(std::move(piece));
   }
   return schedule;

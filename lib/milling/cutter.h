@@ -58,8 +58,8 @@ struct CutPiece {
   std::function<DirectionalFactors(double turn_rad)> damping;
   std::size_t cut_by = 0;        ///< index of the piece that cut this one's surface, of the same length
   bool in_period_before = true;  ///< whether it did so in the period before this one
-  /// The arc that it is a part of: its index, the arc's length, and how far along it the piece begins. Arcs
-  /// join the pieces of one tooth's way through the cut (unequal pitch); else each piece is one.
+  /// The arc that it is a part of, one tooth's way through the cut (unequal pitch): its index, its length,
+  /// and how far along it the piece begins. Length 0: the piece is an arc by itself.
   std::size_t arc = 0;
   double arc_rad = 0, along_rad = 0;
 };

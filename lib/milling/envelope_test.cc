@@ -10,9 +10,9 @@ using namespace stablecut::milling;
 TEST_CASE(
     "the chart of two structures has the larger radius and the lower limit of both, and says whose it is") {
   const Cutter cutter = fixtures::benchmark_cutter(true, 0.3);
-  const std::vector<double> speeds = {80, 130, 200, 310}, depths = {0, 1e-3, 2e-3, 4e-3};
+  const std::vector<double> speeds = {80, 105, 130, 160, 200, 250, 310}, depths = {0, 1e-3, 2e-3, 4e-3};
   std::vector<StabilityChart> charts;
-  for (const unsigned seed : {2U, 5U})
+  for (const unsigned seed : {2U, 4U})
     charts.push_back(stability_chart(tip_structure(fixtures::coupled_modes(5, seed)), cutter, speeds, depths,
                                      {}, true, 1));
   const StabilityChart both = envelope_of(charts);
@@ -32,7 +32,8 @@ TEST_CASE(
     CHECK((limit->table == 0) == (first != nullptr && first->depth_m == lowest));
     ++of_table[limit->table];
   }
-  CHECK(of_table[0] + of_table[1] >= 3);
+  CHECK(of_table[0] >= 1);
+  CHECK(of_table[1] >= 1);
 }
 
 TEST_CASE("a speed that one structure does not resolve is unknown for all") {

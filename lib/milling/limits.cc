@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
+#include <utility>
 
 #include "base/units.h"
 #include "milling/circle_scan.h"
-#include "milling/depth_scan.h"
 #include "milling/semi_discretization.h"
 #include "milling/spectral.h"
 
@@ -81,71 +80,65 @@ class StraightCut {
   double period_s_;
 };
 
-// From the unit circle; nothing where the cut is not one for it, or the count is not confirmed.
+bool is_straight_and_stable(const TipStructure& structure, const Cutter& cutter) {
+  return cutter.lag_rad_per_m == 0 && structure.lambda.real().maxCoeff() < 0;
+}
+
+}  // namespace
+
 std::optional<SpeedLimits> circle_limits(const TipStructure& structure, const Cutter& cutter,
-                                         double revolutions_per_s, double largest_depth_m,
-                                         std::optional<int> points) {
-  if (cutter.lag_rad_per_m != 0 || structure.lambda.real().maxCoeff() >= 0) return std::nullopt;
+                                         double revolutions_per_s, double largest_depth_m) {
+  if (!is_straight_and_stable(structure, cutter)) return std::nullopt;
   const StraightCut cut(structure, cutter, revolutions_per_s);
+  const PointPlan plan = point_plan(structure, cutter, revolutions_per_s, largest_depth_m);
+  int points = plan.first;
+  Collocation here = cut.collocation(points);
   SpeedLimits limits;
-  if (points) {
-    const Collocation c = cut.collocation(*points);
-    if (!cut.suits_the_circle(c)) return std::nullopt;
-    const CirclePassages passages = cut.passages(c, largest_depth_m);
-    if (!passages.confirmed) return std::nullopt;
-    return SpeedLimits{cut.crossings(passages, c), 0, *points};
-  }
-  int count = first_guess_of_points(structure, cutter, revolutions_per_s, largest_depth_m);
-  const int most = most_points(cutter, count);
-  const double wanted = wanted_change(structure, cutter, revolutions_per_s, largest_depth_m);
-  Collocation here = cut.collocation(count);
   limits.error = std::numeric_limits<double>::infinity();
   for (;;) {
     if (!cut.suits_the_circle(here)) return std::nullopt;
     const CirclePassages passages = cut.passages(here, largest_depth_m);
     if (!passages.confirmed) return std::nullopt;
-    const int finer = more_points(count);
+    const int finer = more_points(points);
     Collocation fine = cut.collocation(finer);
     const double error = largest_change(passages, cut.whole(fine));
     const bool better = error < limits.error;
-    if (better) limits = {cut.crossings(passages, here), error, count};
-    if (!better || error <= wanted || finer > most) break;
-    count = finer;
+    if (better) limits = {cut.crossings(passages, here), error, points};
+    if (!better || error <= plan.wanted || finer > plan.most) break;
+    points = finer;
     here = std::move(fine);
   }
   refuse_useless(revolutions_per_s, limits.error);
   return limits;
 }
 
-}  // namespace
-
-SpeedLimits scanned_limits(const PreparedPeriod& period, double largest_depth_m, double tooth_period_s) {
-  SpeedLimits limits{{}, period.error, period.resolution};
-  const PeriodMap& map = *period.map;
-  for (const StabilityBoundary& boundary :
-       DepthScan(map, largest_depth_m, DepthScan::kForLimits).boundaries()) {
+std::vector<StabilityCrossing> scanned_crossings(const DepthScan& scan, const PeriodMap& map,
+                                                 double tooth_period_s) {
+  std::vector<StabilityCrossing> crossings;
+  for (const StabilityBoundary& boundary : scan.boundaries()) {
     StabilityCrossing crossing;
     crossing.depth_m = boundary.depth_m;
     crossing.unstable_above = boundary.unstable_above;
     describe(chatter_at(map, boundary.depth_m, boundary.multiplier), map.structure(), tooth_period_s,
              crossing);
-    limits.crossings.push_back(crossing);
+    crossings.push_back(crossing);
   }
-  return limits;
+  return crossings;
 }
 
-SpeedLimits speed_limits(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
-                         double largest_depth_m, std::optional<int> points) {
-  if (auto limits = circle_limits(structure, cutter, revolutions_per_s, largest_depth_m, points))
-    return *limits;
-  const double tooth_period_s = cutter.tooth_period_s(revolutions_per_s);
-  if (points) {
-    const PreparedPeriod period{std::make_unique<SpectralMap>(structure, cutter, revolutions_per_s, *points),
-                                0, *points};
-    return scanned_limits(period, largest_depth_m, tooth_period_s);
+std::vector<StabilityCrossing> crossings_at(const TipStructure& structure, const Cutter& cutter,
+                                            double revolutions_per_s, double largest_depth_m, int points) {
+  if (is_straight_and_stable(structure, cutter)) {
+    const StraightCut cut(structure, cutter, revolutions_per_s);
+    const Collocation c = cut.collocation(points);
+    if (cut.suits_the_circle(c)) {
+      const CirclePassages passages = cut.passages(c, largest_depth_m);
+      if (passages.confirmed) return cut.crossings(passages, c);
+    }
   }
-  return scanned_limits(prepare_period(structure, cutter, revolutions_per_s, {}, largest_depth_m),
-                        largest_depth_m, tooth_period_s);
+  const SpectralMap map(structure, cutter, revolutions_per_s, points);
+  return scanned_crossings(DepthScan(map, largest_depth_m, DepthScan::kForLimits), map,
+                           cutter.tooth_period_s(revolutions_per_s));
 }
 
 const StabilityCrossing* limit_of(const std::vector<StabilityCrossing>& crossings) {
@@ -158,9 +151,8 @@ std::optional<double> limit_depth(const TipStructure& structure, const Cutter& c
                                   double revolutions_per_s, StabilityMethod method, int resolution,
                                   double largest_depth_m) {
   if (method == StabilityMethod::kSpectral) {
-    const SpeedLimits limits =
-        speed_limits(structure, cutter, revolutions_per_s, largest_depth_m, resolution);
-    return limits.crossings.empty() ? std::nullopt : std::optional(limits.crossings.front().depth_m);
+    const auto crossings = crossings_at(structure, cutter, revolutions_per_s, largest_depth_m, resolution);
+    return crossings.empty() ? std::nullopt : std::optional(crossings.front().depth_m);
   }
   const SemiDiscretizationMap map(structure, cutter, revolutions_per_s, resolution);
   const auto boundaries = DepthScan(map, largest_depth_m, DepthScan::kForLimits).boundaries();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "milling/cutter.h"
+#include "milling/depth_scan.h"
 #include "milling/floquet.h"
 #include "milling/period.h"
 #include "milling/structure.h"
@@ -31,12 +32,18 @@ struct SpeedLimits {
   int resolution = 0;                        ///< points on the longest piece of the cut, or intervals
 };
 
-/// All crossings between depth 0 and `largest_depth_m` > 0. With `points` on the longest piece, whose error
-/// is not looked at; without, with as many as it takes. Throws as prepare_period.
-SpeedLimits speed_limits(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
-                         double largest_depth_m, std::optional<int> points = {});
-/// From a period that has been prepared for that depth, by a scan over the depths.
-SpeedLimits scanned_limits(const PreparedPeriod& period, double largest_depth_m, double tooth_period_s);
+/// All crossings between depth 0 and `largest_depth_m` > 0, with as many points as it takes, from the unit
+/// circle. Nothing where the cut is not one for it (helical teeth, very many rows, a structure that is
+/// unstable by itself) or where the count does not confirm them; then a scan over the depths has them. Throws
+/// NoAnswer as point_plan, and where the limits do not converge.
+std::optional<SpeedLimits> circle_limits(const TipStructure& structure, const Cutter& cutter,
+                                         double revolutions_per_s, double largest_depth_m);
+/// Those of a scan over the depths of a map.
+std::vector<StabilityCrossing> scanned_crossings(const DepthScan& scan, const PeriodMap& map,
+                                                 double tooth_period_s);
+/// Either, with `points` on the longest piece, whose error is not looked at.
+std::vector<StabilityCrossing> crossings_at(const TipStructure& structure, const Cutter& cutter,
+                                            double revolutions_per_s, double largest_depth_m, int points);
 
 /// The lowest depth at which the cut loses stability; none where it is stable to the top.
 const StabilityCrossing* limit_of(const std::vector<StabilityCrossing>& crossings);
@@ -45,8 +52,7 @@ const StabilityCrossing* limit_of(const std::vector<StabilityCrossing>& crossing
 int lobe_number(double chatter_frequency_hz, double tooth_period_s);
 
 /// The lowest limit below a depth at one speed; none where the cut is stable to there. With `resolution`
-/// points on the longest piece (or intervals), whose error is not checked, and DepthScan::kForLimits: an
-/// island of instability in which the radius exceeds 1 by less than 1e-4 may be missed.
+/// points on the longest piece (or intervals), whose error is not checked.
 std::optional<double> limit_depth(const TipStructure& structure, const Cutter& cutter,
                                   double revolutions_per_s, StabilityMethod method, int resolution,
                                   double largest_depth_m);

@@ -21,13 +21,18 @@ constexpr double kGridErrorOutOfReach = 3e-4;
 // The points are not more than so many times those of the limits: what is left is the interpolation.
 constexpr double kMostGain = 1.5;
 
-// The radii at one speed, whose limits are known; puts the error and the points that they needed into
-// `limits`. Where radii lie far above 1 they need more points than the limits.
+// One speed of a chart.
+struct Column {
+  SpeedLimits limits;
+  std::vector<double> radii;  // empty without a grid
+};
+
+// The radii at a speed whose limits are known; raises the error to that of the radii. Far above 1 they need
+// more points than the limits.
 std::vector<double> grid_of(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
                             const std::vector<double>& depths_m, SpeedLimits& limits) {
-  const bool all_reached = wanted_change(structure, cutter, revolutions_per_s, depths_m.back()) < kGridError;
-  const double wanted = all_reached ? kGridError : kGridErrorOutOfReach;
-  const int most = most_points(cutter, limits.resolution);
+  const PointPlan plan = point_plan(structure, cutter, revolutions_per_s, depths_m.back());
+  const double wanted = plan.follows_all ? kGridError : kGridErrorOutOfReach;
   int points = more_points(limits.resolution);
   auto map = std::make_unique<SpectralMap>(structure, cutter, revolutions_per_s, points);
   for (;;) {
@@ -35,13 +40,38 @@ std::vector<double> grid_of(const TipStructure& structure, const Cutter& cutter,
     auto finer = std::make_unique<SpectralMap>(structure, cutter, revolutions_per_s, finer_points);
     const DepthScan scan(*map, depths_m.back());
     const double error = scan.error_against(*finer);
-    if (error <= wanted || finer_points > most || points > kMostGain * limits.resolution) {
+    if (error <= wanted || finer_points > plan.most || points > kMostGain * limits.resolution) {
       limits.error = std::max(limits.error, error);
       return scan.spectral_radii(depths_m);
     }
     points = finer_points;
     map = std::move(finer);
   }
+}
+
+Column column_of(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
+                 const std::vector<double>& depths_m, const StabilityScheme& scheme, bool with_grid) {
+  const double top = depths_m.back();
+  if (scheme.method == StabilityMethod::kSpectral && top > 0) {
+    if (const auto limits = circle_limits(structure, cutter, revolutions_per_s, top)) {
+      Column column{*limits, {}};
+      if (with_grid) column.radii = grid_of(structure, cutter, revolutions_per_s, depths_m, column.limits);
+      return column;
+    }
+  }
+  const PreparedPeriod period = prepare_period(structure, cutter, revolutions_per_s, scheme, top);
+  Column column{{{}, period.error, period.resolution}, {}};
+  if (top == 0) {
+    if (with_grid) column.radii.assign(depths_m.size(), spectral_radius(*period.map, 0));
+    return column;
+  }
+  const DepthScan scan(*period.map, top, with_grid ? DepthScan::kExact : DepthScan::kForLimits);
+  column.limits.crossings = scanned_crossings(scan, *period.map, cutter.tooth_period_s(revolutions_per_s));
+  if (with_grid) {
+    column.radii = scan.spectral_radii(depths_m);
+    column.limits.error = std::max(period.error, scan.error_against(*period.map));
+  }
+  return column;
 }
 
 }  // namespace
@@ -60,47 +90,26 @@ StabilityChart stability_chart(const TipStructure& structure, const Cutter& cutt
   chart.failure.resize(speeds);
 
   const auto compute = [&](std::size_t s) {
-    SpeedLimits limits;
-    std::vector<double> radii;
-    const bool straight = scheme.method == StabilityMethod::kSpectral && cutter.lag_rad_per_m == 0;
-    if (straight && depths_m.back() > 0) {
-      limits = speed_limits(structure, cutter, revolutions_per_s[s], depths_m.back());
-      if (with_grid) radii = grid_of(structure, cutter, revolutions_per_s[s], depths_m, limits);
-    } else {
-      const PreparedPeriod period =
-          prepare_period(structure, cutter, revolutions_per_s[s], scheme, depths_m.back());
-      limits = {{}, period.error, period.resolution};
-      if (depths_m.back() > 0) {
-        limits.crossings =
-            scanned_limits(period, depths_m.back(), cutter.tooth_period_s(revolutions_per_s[s])).crossings;
-        if (with_grid) radii = DepthScan(*period.map, depths_m.back()).spectral_radii(depths_m);
-      } else if (with_grid) {
-        radii.assign(depths_m.size(), spectral_radius(*period.map, 0));
-      }
-    }
-    if (with_grid) chart.spectral_radius.col(s) = Eigen::Map<const Eigen::VectorXd>(radii.data(), depths);
-    chart.crossings[s] = std::move(limits.crossings);
-    chart.error[s] = limits.error;
-    chart.resolution[s] = limits.resolution;
+    Column column = column_of(structure, cutter, revolutions_per_s[s], depths_m, scheme, with_grid);
+    if (with_grid)
+      chart.spectral_radius.col(s) = Eigen::Map<const Eigen::VectorXd>(column.radii.data(), depths);
+    chart.crossings[s] = std::move(column.limits.crossings);
+    chart.error[s] = column.limits.error;
+    chart.resolution[s] = column.limits.resolution;
   };
   const auto fail = [&](std::size_t s, const NoAnswer& error) {
     chart.failure[s] = error.what();
-    chart.crossings[s].clear();
-    chart.error[s] = 0;
-    chart.resolution[s] = 0;
     if (with_grid) chart.spectral_radius.col(s).setConstant(std::numeric_limits<double>::quiet_NaN());
   };
   parallel_for(
       speeds, threads,
       [&](std::size_t s) {
         try {
-          try {
-            compute(s);
-          } catch (const InvalidArgument& error) {
-            fail_at(revolutions_per_s[s], error.what());
-          }
+          compute(s);
         } catch (const NoAnswer& error) {
           fail(s, error);
+        } catch (const InvalidArgument& error) {
+          fail(s, no_answer_at(revolutions_per_s[s], error.what()));
         }
       },
       progress);

@@ -97,15 +97,15 @@ void measure(const Cut& cut, Totals& totals) {
   totals.scan_s += processor_seconds() - start;
   totals.scan_maps += map.count;
   start = processor_seconds();
-  const SpeedLimits limits =
-      speed_limits(cut.structure, cut.cutter, cut.revolutions_per_s, cut.largest_depth_m, period.resolution);
+  const std::vector<StabilityCrossing> limits =
+      crossings_at(cut.structure, cut.cutter, cut.revolutions_per_s, cut.largest_depth_m, period.resolution);
   totals.limits_s += processor_seconds() - start;
 
   const std::vector<double> direct = spectral_radii(*period.map, depths);
   totals.scan_error = std::max(totals.scan_error, largest_error(radii, direct));
   totals.missed += missed_by(boundaries, depths, direct, totals.crossings);
   int again = 0;
-  totals.missed_limits += missed_by(limits.crossings, depths, direct, again);
+  totals.missed_limits += missed_by(limits, depths, direct, again);
 
   const SpectralMap finer(cut.structure, cut.cutter, cut.revolutions_per_s, 2 * period.resolution + 6);
   const std::vector<double> few = Range{0, cut.largest_depth_m, 41}.values();

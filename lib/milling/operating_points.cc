@@ -23,6 +23,9 @@ constexpr int kMinimumSteps = 8;
 // A mode whose loop on the unit circle is smaller than this share of what limits leaves no notch that
 // matters; features are not looked for on a finer scale than kFinest of the speed.
 constexpr double kNotch = 0.05, kFinest = 2e-3;
+// Steps that would make too many speeds grow by this factor until there are few enough; and what is kept off
+// a number of steps before it is rounded up.
+constexpr double kCoarser = 1.25, kRoundingOfSteps = 1e-9;
 
 // Whether a limit is lower than another; no limit (stable to the largest depth) is higher than any.
 bool lower(const std::optional<double>& a, const std::optional<double>& b) { return a && (!b || *a < *b); }
@@ -105,15 +108,16 @@ std::vector<double> speeds_between(const std::vector<TipStructure>& structures, 
   const auto count_at = [&](double step) {
     std::vector<std::size_t> counts;
     for (std::size_t i = 0; i + 1 < chart.size(); ++i)
-      counts.push_back(
-          static_cast<std::size_t>(std::ceil(std::log(chart[i + 1] / chart[i]) / step * (1 - 1e-9))) - 1);
+      counts.push_back(static_cast<std::size_t>(
+                           std::ceil(std::log(chart[i + 1] / chart[i]) / step * (1 - kRoundingOfSteps))) -
+                       1);
     return counts;
   };
   const auto total = [](const std::vector<std::size_t>& counts) {
     return std::accumulate(counts.begin(), counts.end(), std::size_t{0});
   };
   std::vector<std::size_t> counts = count_at(finest);
-  while (total(counts) > most) counts = count_at(finest *= 1.25);
+  while (total(counts) > most) counts = count_at(finest *= kCoarser);
   std::vector<double> between;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const double ratio = std::pow(chart[i + 1] / chart[i], 1.0 / static_cast<double>(counts[i] + 1));

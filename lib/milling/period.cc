@@ -48,6 +48,7 @@ constexpr double kNearRounding = 1e-5, kGain = 2;
 constexpr int kStagnation = 3;
 // Shares of the largest depth at which the semi-discretization is compared with the collocation.
 constexpr std::array<double, 2> kSharesOfScheme = {1, 0.5};
+
 // The largest difference of two maps' radii over a few depths, of max(1, radius). Depths far above the limit
 // do not count, unless all are.
 double largest_difference(const PeriodMap& map, const PeriodMap& finer, double largest_depth_m) {
@@ -73,9 +74,8 @@ PreparedPeriod converged_spectral(const TipStructure& structure, const Cutter& c
   const auto build = [&](int points) {
     return std::make_unique<SpectralMap>(structure, cutter, revolutions_per_s, points);
   };
-  const double converged = wanted_change(structure, cutter, revolutions_per_s, largest_depth_m);
-  int points = first_guess_of_points(structure, cutter, revolutions_per_s, largest_depth_m);
-  const int most = most_points(cutter, points);
+  const PointPlan plan = point_plan(structure, cutter, revolutions_per_s, largest_depth_m);
+  int points = plan.first;
   auto map = build(points);
   PreparedPeriod best;
   best.error = std::numeric_limits<double>::infinity();
@@ -85,23 +85,13 @@ PreparedPeriod converged_spectral(const TipStructure& structure, const Cutter& c
     const double error = largest_difference(*map, *finer, largest_depth_m);
     without_gain = error < best.error / kGain || error > kNearRounding ? 0 : without_gain + 1;
     if (error < best.error) best = {std::move(map), error, points};
-    if (error <= converged || finer_points > most || without_gain == kStagnation) break;
+    if (error <= plan.wanted || finer_points > plan.most || without_gain == kStagnation) break;
     points = finer_points;
     map = std::move(finer);
   }
   refuse_useless(revolutions_per_s, best.error);
   return best;
 }
-
-}  // namespace
-
-void fail_at(double revolutions_per_s, const std::string& what) {
-  throw NoAnswer("at " + number_text(rpm_from_revolutions_per_s(revolutions_per_s)) + " rpm " + what +
-                     ": raise the speed, lower the largest depth, or leave fast modes out",
-                 Remedy::kModes);
-}
-
-namespace {
 
 // The highest frequency (rad/s) that polynomials must follow. Modes that turn often in a cut feel the mean A
 // of the directional matrix: 1 / depth = (1 - 1 / mu) c / (s - lambda), c = psi_L^T A psi_R, which is real no
@@ -132,38 +122,32 @@ double followed(const TipStructure& structure, const Cutter& cutter, const CutSc
 
 }  // namespace
 
-int first_guess_of_points(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
-                          double largest_depth_m) {
+NoAnswer no_answer_at(double revolutions_per_s, const std::string& what) {
+  return NoAnswer("at " + number_text(rpm_from_revolutions_per_s(revolutions_per_s)) + " rpm " + what +
+                      ": raise the speed, lower the largest depth, or leave fast modes out",
+                  Remedy::kModes);
+}
+
+PointPlan point_plan(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
+                     double largest_depth_m) {
   const CutSchedule schedule = cut_schedule(cutter, revolutions_per_s, largest_depth_m);
   const double fastest = structure.lambda.imag().cwiseAbs().maxCoeff();
-  const double all = kPointsPerRadian * half_turn_of(fastest, schedule, revolutions_per_s);
-  if (all > kMostPoints)
-    fail_at(revolutions_per_s, "the fastest mode turns too often in one cut to be followed");
-  if (schedule.passes > 1 || cutter.lag_rad_per_m != 0) return static_cast<int>(kFirstPoints + all);
-  return static_cast<int>(
-      kFirstPoints + half_turn_of(followed(structure, cutter, schedule, revolutions_per_s, largest_depth_m),
-                                  schedule, revolutions_per_s));
+  const double nodes = kPointsPerRadian * half_turn_of(fastest, schedule, revolutions_per_s);
+  if (nodes > kMostPoints)
+    throw no_answer_at(revolutions_per_s, "the fastest mode turns too often in one cut to be followed");
+  const auto by_node = static_cast<int>(kFirstPoints + nodes);
+  if (!cutter.equal_pitch()) return {by_node, std::max(by_node, kMostPointsByTooth), kConvergedByTooth};
+  if (cutter.lag_rad_per_m != 0) return {by_node, kMostPoints, kConverged};
+  const double follow = followed(structure, cutter, schedule, revolutions_per_s, largest_depth_m);
+  const bool all = follow >= fastest;
+  return {static_cast<int>(kFirstPoints + half_turn_of(follow, schedule, revolutions_per_s)), kMostPoints,
+          all ? kConverged : kConvergedOutOfReach, all};
 }
 
 int more_points(int points) { return points + std::max(kLeastAdded, points / kPointsForOne); }
 
-int most_points(const Cutter& cutter, int first_guess) {
-  return cutter.equal_pitch() ? kMostPoints : std::max(first_guess, kMostPointsByTooth);
-}
-
-double wanted_change(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
-                     double largest_depth_m) {
-  if (!cutter.equal_pitch()) return kConvergedByTooth;
-  if (cutter.lag_rad_per_m != 0) return kConverged;
-  const double fastest = structure.lambda.imag().cwiseAbs().maxCoeff();
-  const CutSchedule schedule = cut_schedule(cutter, revolutions_per_s, largest_depth_m);
-  return followed(structure, cutter, schedule, revolutions_per_s, largest_depth_m) < fastest
-             ? kConvergedOutOfReach
-             : kConverged;
-}
-
 void refuse_useless(double revolutions_per_s, double error) {
-  if (!(error < kUseless)) fail_at(revolutions_per_s, "the spectral radius does not converge");
+  if (!(error < kUseless)) throw no_answer_at(revolutions_per_s, "the spectral radius does not converge");
 }
 
 PreparedPeriod prepare_period(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,

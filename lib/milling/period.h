@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
+#include "base/error.h"
 #include "milling/cutter.h"
 #include "milling/floquet.h"
 #include "milling/structure.h"
@@ -34,19 +36,22 @@ struct PreparedPeriod {
 PreparedPeriod prepare_period(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
                               const StabilityScheme& scheme, double largest_depth_m);
 
-/// Points on the longest piece that should be near convergence. Throws NoAnswer where they are too many.
-int first_guess_of_points(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
-                          double largest_depth_m);
+/// How many points on the longest piece to begin with and to take at most, and the change of a multiplier
+/// that is small enough.
+struct PointPlan {
+  int first = 0, most = 0;
+  double wanted = 0;
+  bool follows_all = true;  ///< false: fast modes are out of chatter's reach, and their ringing is left out
+};
+/// For depths up to `largest_depth_m`. Throws NoAnswer where the fastest mode turns too often to be followed.
+PointPlan point_plan(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
+                     double largest_depth_m);
 /// The number of points to try after `points`.
 int more_points(int points);
-/// The most points that are tried, and the change of a radius that is small enough.
-int most_points(const Cutter& cutter, int first_guess);
-double wanted_change(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
-                     double largest_depth_m);
 
-/// Throws NoAnswer that names the speed.
-[[noreturn]] void fail_at(double revolutions_per_s, const std::string& what);
-/// Where an error is so large that there is no answer, fails; else returns.
+/// That there is no answer at a speed, and why.
+NoAnswer no_answer_at(double revolutions_per_s, const std::string& what);
+/// Throws it where an error is so large that the radius says nothing.
 void refuse_useless(double revolutions_per_s, double error);
 
 }  // namespace stablecut::milling

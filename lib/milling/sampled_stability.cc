@@ -88,8 +88,7 @@ SampledStability sampled_stability(const std::vector<SampledCut>& samples,
         std::vector<double> limits;
         for (const SampledCut& sample : samples) {
           const auto boundaries =
-              speed_limits(sample.structure, sample.cutter, revolutions_per_s[s], depths_m.back(), points[s])
-                  .crossings;
+              crossings_at(sample.structure, sample.cutter, revolutions_per_s[s], depths_m.back(), points[s]);
           limits.push_back(boundaries.empty() ? std::numeric_limits<double>::infinity()
                                               : boundaries[0].depth_m);
           for (std::size_t i = 0; with_grid && i < depths_m.size(); ++i) {

@@ -29,6 +29,34 @@ OperatingLimits limits_of(const RunRequest& request, const Cutter& cutter, doubl
   return limits;
 }
 
+// Limits at speeds between the curve's, as many as they are worth.
+std::vector<LimitPoint> limits_between(const std::vector<TipStructure>& structures, const Cutter& cutter,
+                                       const LimitCurve& curve, const LimitAt& limit_at, int threads) {
+  std::vector<double> speeds;
+  double lowest = curve.largest_depth_m;
+  for (const LimitPoint& point : curve.points) {
+    speeds.push_back(point.revolutions_per_s);
+    if (point.depth_m) lowest = std::min(lowest, *point.depth_m);
+  }
+  const int points = *std::max_element(curve.resolution.begin(), curve.resolution.end());
+  const bool one_in_cut = cutter.exit_rad - cutter.entry_rad <= cutter.mean_pitch_rad();
+  const bool cheap = curve.method == StabilityMethod::kSpectral && cutter.equal_pitch() &&
+                     cutter.lag_rad_per_m == 0 && cutter.damping_n_per_m == 0 &&
+                     points * (one_in_cut ? 1 : 2) <= kCheapRows;
+  const std::size_t most =
+      cheap ? kMostBetween * speeds.size() + kLeastBetween : speeds.size() / kSpeedsForOneDear;
+  std::vector<LimitPoint> between;
+  for (const double speed : speeds_between(structures, cutter, speeds, lowest, most))
+    between.push_back({speed, {}});
+  parallel_for(between.size(), threads, [&](std::size_t i) {
+    LimitPoint& point = between[i];
+    const auto limit = limit_at(point.revolutions_per_s, curve.largest_depth_m);
+    point.known = !limit || *limit > 0;
+    if (point.known) point.depth_m = limit;
+  });
+  return between;
+}
+
 }  // namespace
 
 LimitCurve limit_curve(const StabilityChart& chart, const std::vector<double>& revolutions_per_s,
@@ -67,27 +95,7 @@ WhatToRun what_to_run(const std::vector<TipStructure>& structures, const Cutter&
     }
   };
   WhatToRun what;
-  std::vector<double> speeds;
-  double lowest = curve.largest_depth_m;
-  for (const LimitPoint& point : curve.points) {
-    speeds.push_back(point.revolutions_per_s);
-    if (point.depth_m) lowest = std::min(lowest, *point.depth_m);
-  }
-  const int points = *std::max_element(curve.resolution.begin(), curve.resolution.end());
-  const bool one_in_cut = cutter.exit_rad - cutter.entry_rad <= cutter.mean_pitch_rad();
-  const bool cheap = curve.method == StabilityMethod::kSpectral && cutter.equal_pitch() &&
-                     cutter.lag_rad_per_m == 0 && cutter.damping_n_per_m == 0 &&
-                     points * (one_in_cut ? 1 : 2) <= kCheapRows;
-  const std::size_t most =
-      cheap ? kMostBetween * speeds.size() + kLeastBetween : speeds.size() / kSpeedsForOneDear;
-  for (const double speed : speeds_between(structures, cutter, speeds, lowest, most))
-    what.between.push_back({speed, {}});
-  parallel_for(what.between.size(), threads, [&](std::size_t i) {
-    LimitPoint& point = what.between[i];
-    const auto limit = limit_at(point.revolutions_per_s, curve.largest_depth_m);
-    point.known = !limit || *limit > 0;
-    if (point.known) point.depth_m = limit;
-  });
+  what.between = limits_between(structures, cutter, curve, limit_at, threads);
   std::vector<LimitPoint> all = curve.points;
   all.insert(all.end(), what.between.begin(), what.between.end());
   const auto by_speed = [](const LimitPoint& a, const LimitPoint& b) {
