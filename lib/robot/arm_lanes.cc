@@ -24,14 +24,26 @@ constexpr double kFolded = 1e-40;          // m^4: a wrist centre nearer to axis
 STABLECUT_INLINE Four load(const double* from) { return numerics::load_lanes<Four>(from); }
 STABLECUT_INLINE void store(const Four& v, double* to) { numerics::store_lanes(v, to); }
 
-// theta -> the controller angle nearest the middle of the range.
-STABLECUT_INLINE Four controller_angle(const ArmConstants& robot, int joint, const Four& theta) {
-  const Four angle = robot.sign[joint] * (theta - robot.offset[joint]);
-  return angle + kTwoPi * numerics::nearest_whole((robot.middle[joint] - angle) * (1 / kTwoPi));
-}
+// A joint's controller angle, the copy nearest the middle of its range, and its margin to the limits.
+struct JointLanes {
+  Four angle, margin;
+};
 
-STABLECUT_INLINE Four joint_margin(const ArmConstants& robot, int joint, const Four& angle) {
-  return robot.half_range[joint] - absolute(angle - robot.middle[joint]);
+// `angles` holds those of the joints before. The range of a coupled joint is what Robot::range says.
+STABLECUT_INLINE JointLanes joint_lanes(const ArmConstants& robot, int joint, const Four& theta,
+                                        const Four angles[6]) {
+  const Four zero = {};
+  Four angle = robot.sign[joint] * (theta - robot.offset[joint]);
+  Four least_angle = zero + robot.least[joint], most_angle = zero + robot.most[joint];
+  if (robot.follows[joint] >= 0) {
+    const Four added = robot.ratio[joint] * angles[robot.follows[joint]];
+    angle = angle - added;
+    least_angle = numerics::largest(least_angle, robot.coupled_least[joint] - added);
+    most_angle = least(most_angle, robot.coupled_most[joint] - added);
+  }
+  const Four middle = 0.5 * (least_angle + most_angle), half_range = 0.5 * (most_angle - least_angle);
+  angle = angle + kTwoPi * numerics::nearest_whole((middle - angle) * (1 / kTwoPi));
+  return {angle, half_range - absolute(angle - middle)};
 }
 
 // The steps of solve_arms, in the order of README.md, "Inverse kinematics". They are always inlined: each
@@ -44,17 +56,14 @@ struct HomeTarget {
 
 STABLECUT_INLINE HomeTarget target_in_home(const ArmConstants& k, const ArmTarget& target) {
   const auto turned = [&k](const double v[3], double w[3]) {
-    w[0] = v[0];
-    w[1] = k.cos_alpha0 * v[1] + k.sin_alpha0 * v[2];
-    w[2] = k.cos_alpha0 * v[2] - k.sin_alpha0 * v[1];
+    for (int i = 0; i < 3; ++i) w[i] = k.home[i][0] * v[0] + k.home[i][1] * v[1] + k.home[i][2] * v[2];
   };
   HomeTarget home;
   double p6[3];
   turned(target.x, home.x6);
   turned(target.z, home.z6);
   turned(target.origin, p6);
-  p6[0] -= k.a0;
-  p6[2] -= k.d1;
+  for (int i = 0; i < 3; ++i) p6[i] += k.home_shift[i];
   for (int i = 0; i < 3; ++i) home.wrist[i] = p6[i] - k.d6 * home.z6[i];
   return home;
 }
@@ -184,24 +193,25 @@ STABLECUT_INLINE void store_angles(const ArmConstants& k, const Shoulder& should
                                    const Wrist& wrist, ArmLanes& out) {
   const Four theta4 = angle_of(wrist.s4, wrist.c4), theta5 = angle_of(wrist.s5, wrist.c5),
              theta6 = angle_of(wrist.s6, wrist.c6);
-  const Four arm_angles[3] = {controller_angle(k, 0, angle_of(shoulder.s1, shoulder.c1)),
-                              controller_angle(k, 1, angle_of(elbow.s2, elbow.c2)),
-                              controller_angle(k, 2, angle_of(k.elbow_sense * elbow.sp, elbow.cp))};
-  const Four wrist_angles[2][3] = {
-      {controller_angle(k, 3, theta4), controller_angle(k, 4, theta5), controller_angle(k, 5, theta6)},
-      {controller_angle(k, 3, theta4 + kPi), controller_angle(k, 4, -theta5),
-       controller_angle(k, 5, theta6 + kPi)}};
-  Four arm_margin = joint_margin(k, 0, arm_angles[0]);
-  for (int j = 1; j < 3; ++j) arm_margin = least(arm_margin, joint_margin(k, j, arm_angles[j]));
+  const Four thetas[2][6] = {{angle_of(shoulder.s1, shoulder.c1), angle_of(elbow.s2, elbow.c2),
+                              angle_of(k.elbow_sense * elbow.sp, elbow.cp), theta4, theta5, theta6},
+                             {{}, {}, {}, theta4 + kPi, -theta5, theta6 + kPi}};
   const Four nowhere = Four{} - std::numeric_limits<double>::infinity();
+  Four angles[6] = {}, arm_margin = Four{} + std::numeric_limits<double>::infinity();
+  for (int j = 0; j < 3; ++j) {
+    const JointLanes joint = joint_lanes(k, j, thetas[0][j], angles);
+    angles[j] = joint.angle;
+    arm_margin = least(arm_margin, joint.margin);
+  }
   arm_margin = elbow.reaches ? arm_margin : nowhere;
   for (int w = 0; w < 2; ++w) {
     Four margin = arm_margin;
-    for (int j = 0; j < 3; ++j) {
-      store(arm_angles[j], out.angle[j] + w * kArms);
-      store(wrist_angles[w][j], out.angle[3 + j] + w * kArms);
-      margin = least(margin, joint_margin(k, 3 + j, wrist_angles[w][j]));
+    for (int j = 3; j < 6; ++j) {
+      const JointLanes joint = joint_lanes(k, j, thetas[w][j], angles);
+      angles[j] = joint.angle;
+      margin = least(margin, joint.margin);
     }
+    for (int j = 0; j < 6; ++j) store(angles[j], out.angle[j] + w * kArms);
     store(margin, out.limit_margin + w * kArms);
   }
 }

@@ -10,10 +10,9 @@ inline constexpr int kArms = 4;      ///< arm = 2 * rear shoulder + elbow on the
 inline constexpr int kBranches = 8;  ///< branch = 4 * flipped wrist + arm
 
 /// A robot with parallel shoulder and elbow axes and a spherical wrist, as the kernel wants it. Lengths in m.
-/// "Home" is the base frame turned by alpha of link 0 and moved by a of link 0 and d of joint 1: its z is
-/// axis 1.
+/// "Home" is frame 0 turned by alpha of link 0 and moved by a of link 0 and d of joint 1: its z is axis 1.
 struct ArmConstants {
-  double cos_alpha0, sin_alpha0, a0, d1;
+  double home[3][3], home_shift[3];  ///< from the base frame to home: rows of the rotation, and the shift
   double cos_alpha1, sin_alpha1, a1;
   double along_axis2;         ///< of the wrist centre, from home: the same in every pose
   double a2, forearm;         ///< upper arm, and wrist centre's distance from axis 3
@@ -22,10 +21,13 @@ struct ArmConstants {
   double cos_alpha3, sin_alpha3;  ///< with half a turn added for the elbow's sense -1
   double wrist4, wrist5;          ///< signs of alpha 4 and alpha 5, which are +-90 degrees
   double d6;
-  double sign[6], offset[6];  ///< theta = sign * angle + offset
-  double middle[6], half_range[6];
-  double cos_free1, sin_free1;  ///< of theta of joint 1 where the target leaves it free
-  double cos_free4, sin_free4;  ///< and of joint 4
+  double sign[6], offset[6];  ///< theta = sign * (angle + ratio * followed angle) + offset
+  double least[6], most[6];   ///< of the angle
+  int follows[6];             ///< index of the followed joint, below the joint's own; -1 for none
+  double ratio[6];
+  double coupled_least[6], coupled_most[6];  ///< of angle + ratio * followed angle, or infinite
+  double cos_free1, sin_free1;               ///< of theta of joint 1 where the target leaves it free
+  double cos_free4, sin_free4;               ///< and of joint 4
 };
 
 /// Where frame 6 has to be: its x and z axes and origin, base frame.

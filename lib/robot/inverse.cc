@@ -50,10 +50,6 @@ InverseKinematics::InverseKinematics(const Robot& robot)
       throw InvalidArgument("joint " + joint.name + ": expected finite limits");
   }
   ArmConstants& k = constants_;
-  k.cos_alpha0 = j[0].cos_alpha();
-  k.sin_alpha0 = j[0].sin_alpha();
-  k.a0 = j[0].a_m;
-  k.d1 = j[0].d_m;
   k.cos_alpha1 = j[1].cos_alpha();
   k.sin_alpha1 = j[1].sin_alpha();
   k.a1 = j[1].a_m;
@@ -74,12 +70,23 @@ InverseKinematics::InverseKinematics(const Robot& robot)
   for (int i = 0; i < kJoints; ++i) {
     k.sign[i] = j[i].theta_sign;
     k.offset[i] = j[i].theta_offset_rad;
-    k.middle[i] = j[i].middle_rad();
-    k.half_range[i] = j[i].half_range_rad();
+    k.least[i] = j[i].min_rad;
+    k.most[i] = j[i].max_rad;
+    k.follows[i] = j[i].coupling ? j[i].coupling->follows : -1;
+    k.ratio[i] = j[i].coupling ? j[i].coupling->ratio : 0;
+    k.coupled_least[i] = j[i].coupled_min_rad;
+    k.coupled_most[i] = j[i].coupled_max_rad;
   }
   set_free_angles(nearest_to_zero(j[0]), nearest_to_zero(j[3]));
-  home_from_base_.linear() << 1, 0, 0, 0, k.cos_alpha0, k.sin_alpha0, 0, -k.sin_alpha0, k.cos_alpha0;
-  home_from_base_.translation() << -k.a0, 0, -k.d1;
+  Eigen::Isometry3d home_from_frame0 = Eigen::Isometry3d::Identity();
+  const double c = j[0].cos_alpha(), s = j[0].sin_alpha();
+  home_from_frame0.linear() << 1, 0, 0, 0, c, s, 0, -s, c;
+  home_from_frame0.translation() << -j[0].a_m, 0, -j[0].d_m;
+  home_from_base_ = home_from_frame0 * robot.base.inverse();
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) k.home[row][column] = home_from_base_.linear()(row, column);
+    k.home_shift[row] = home_from_base_.translation()[row];
+  }
 }
 
 void InverseKinematics::set_free_angles(double angle1, double angle4) {
@@ -127,12 +134,14 @@ std::vector<InverseSolution> InverseKinematics::solve(const Eigen::Isometry3d& t
 
 std::vector<JointAngles> copies_within_limits(const Robot& robot, const JointAngles& angles,
                                               double margin_rad) {
-  std::vector<JointAngles> copies{most_central_copies(robot, angles)};
+  // Each copy holds controller angles up to the joint that is looked at, and turns from there on.
+  std::vector<JointAngles> copies{joint_turns(robot, most_central_copies(robot, angles))};
   for (int j = 0; j < kJoints; ++j) {
-    const Joint& joint = robot.joints[j];
     std::vector<JointAngles> next;
-    for (const JointAngles& copy : copies) {
-      const double least = joint.min_rad + margin_rad, most = joint.max_rad - margin_rad;
+    for (JointAngles copy : copies) {
+      if (const auto& c = robot.joints[j].coupling) copy[j] -= c->ratio * copy[c->follows];
+      const AngleRange range = robot.range(j, copy);
+      const double least = range.min_rad + margin_rad, most = range.max_rad - margin_rad;
       for (double turn = std::ceil((least - copy[j]) / kTwoPi); copy[j] + turn * kTwoPi <= most; ++turn) {
         next.push_back(copy);
         next.back()[j] += turn * kTwoPi;

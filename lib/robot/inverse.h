@@ -45,7 +45,7 @@ class InverseKinematics {
 
   /// All branches that reach the tool frame (base frame, m), inside the limits or not, without repeats where
   /// two coincide. Where the target leaves joint 1 free (wrist centre on axis 1) or joint 4 (axes 4 and 6 in
-  /// line), that joint takes its angle in `free`, by default 0 or what is nearest to 0 inside the limits;
+  /// line), that joint turns by its angle in `free`, by default 0 or what is nearest to 0 inside the limits;
   /// with the wrist centre on axis 2, joint 2 gets theta = 0.
   std::vector<InverseSolution> solve(const Eigen::Isometry3d& tool) const;
   std::vector<InverseSolution> solve(const Eigen::Isometry3d& tool, const JointAngles& free) const;

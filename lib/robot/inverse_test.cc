@@ -56,7 +56,8 @@ Tally round_trips(const Robot& robot, int count, unsigned seed) {
   return tally;
 }
 
-// Another robot with a spherical wrist: random lengths, offsets, senses and a tilted, shifted base.
+// Another robot with a spherical wrist: random lengths, offsets, senses, a tilted, shifted base, and coupled
+// axes.
 Robot random_robot(unsigned seed) {
   std::mt19937_64 generator(seed);
   const auto sign = [&] { return generator() & 1 ? 1.0 : -1.0; };
@@ -85,6 +86,16 @@ Robot random_robot(unsigned seed) {
   robot.tool.linear() =
       Eigen::AngleAxisd(uniform(generator, -3, 3), Eigen::Vector3d(1, 2, 3).normalized()).matrix();
   robot.tool.translation() << uniform(generator, -0.3, 0.3), uniform(generator, -0.3, 0.3), 0.2;
+  robot.base = random_frame(generator, 1);
+  if (seed % 2 == 1) {
+    j[2].coupling = {1, sign()};
+    j[2].coupled_min_rad = uniform(generator, -kPi, -1);
+    j[2].coupled_max_rad = uniform(generator, 1, 2 * kPi);
+  }
+  if (seed % 4 == 1) {
+    j[4].max_rad = 2;  // below a full turn, so that the ratio need not be whole
+    j[5].coupling = {4, uniform(generator, -2, 2)};
+  }
   return robot;
 }
 
@@ -100,7 +111,7 @@ TEST_CASE("20000 random poses of the KR360: each finds its seed, every branch re
   CHECK(tally.worst_seed < 1e-8);
 }
 
-TEST_CASE("other robots with spherical wrists: offsets, senses, inclined axes") {
+TEST_CASE("other robots with spherical wrists: offsets, senses, inclined axes, coupled axes, any base") {
   for (unsigned seed = 1; seed <= 30; ++seed) {
     const Tally tally = round_trips(random_robot(seed), 300, seed);
     INFO("robot " << seed);

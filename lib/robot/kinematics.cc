@@ -24,10 +24,12 @@ std::pair<Eigen::Vector3d, Eigen::Vector3d> reference_directions(const Eigen::Ve
 RobotPose robot_pose(const Robot& robot, const JointAngles& angles) {
   RobotPose pose;
   double theta[8] = {}, sine[8], cosine[8];
-  for (int j = 0; j < kJoints; ++j) theta[j] = robot.joints[j].theta_of(angles[j]);
+  for (int j = 0; j < kJoints; ++j) {
+    theta[j] = robot.joints[j].theta_sign * robot.turn_rad(j, angles) + robot.joints[j].theta_offset_rad;
+  }
   numerics::sines_and_cosines(theta, sine, cosine);
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d rotation = robot.base.linear();
+  Eigen::Vector3d origin = robot.base.translation();
   for (int j = 0; j < kJoints; ++j) {
     const Joint& joint = robot.joints[j];
     const double ca = joint.cos_alpha(), sa = joint.sin_alpha();

@@ -9,18 +9,20 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 /// The robot at one set of angles, base frame, m.
 struct RobotPose {
-  Eigen::Matrix<double, 3, kJoints> axis;   ///< unit vectors, positive in the sense of growing angles
+  Eigen::Matrix<double, 3, kJoints>
+      axis;  ///< unit vectors, positive in the sense of growing turns (Robot::turn_rad)
   Eigen::Matrix<double, 3, kJoints> point;  ///< a point on each axis: the origin of its frame
   Eigen::Isometry3d flange;
   Eigen::Isometry3d tool;
 };
 
 /// Forward kinematics: T(i-1, i) = Rx(alpha) Tx(a) Rz(theta) Tz(d), with a, alpha of link i-1 [Yi2025, eq.
-/// 1].
+/// 1], from the robot's base on.
 RobotPose robot_pose(const Robot& robot, const JointAngles& angles);
 
 /// Jacobian of a point fixed to the last link (base frame, m): rows velocity (m/rad), then rotation
-/// (rad/rad); column i is [z_i x (point - p_i); z_i] [Yi2025, eq. 4], [Whitney1972].
+/// (rad/rad); column i is [z_i x (point - p_i); z_i] [Yi2025, eq. 4], [Whitney1972]. It belongs to the
+/// joint's own turn, which is what its gearbox yields by: a coupled angle does not change it.
 Matrix6d jacobian(const RobotPose& pose, const Eigen::Vector3d& point);
 
 /// Its first three rows.

@@ -38,17 +38,26 @@ std::optional<FoundPose> with_place_of_tool(const PoseScanner& scanner, FoundPos
   return pose;
 }
 
+// The angles with one joint's angle changed, and all other joints turned as they were.
+JointAngles with_angle(const Robot& robot, const JointAngles& angles, int joint, double angle) {
+  JointAngles turns = joint_turns(robot, angles);
+  turns[joint] += angle - angles[joint];
+  JointAngles result = angles_of_turns(robot, turns);
+  result[joint] = angle;
+  return result;
+}
+
 // The pose with one joint turned to `angle`, if the task's intervals and limits allow it. Where the
 // redundancy cannot matter but is bounded, joint 6 undoes what a turn of the base does to the tool.
 std::optional<FoundPose> with_joint_at(const PoseScanner& scanner, const FoundPose& found, int joint,
                                        double angle) {
   FoundPose pose = found;
-  pose.angles[joint] = angle;
+  pose.angles = with_angle(scanner.robot(), found.angles, joint, angle);
   if (joint == 0 && !scanner.redundancy_matters() && !scanner.task().full_turn()) {
     const double turn = redundancy_angle(robot_pose(scanner.robot(), pose.angles).tool);
     pose.angles[5] += scanner.turn_sense() * std::remainder(found.at.redundancy - turn, kTwoPi);
-    pose.angles = most_central_copies(scanner.robot(), pose.angles);
-    pose.angles[joint] = angle;
+    pose.angles =
+        with_angle(scanner.robot(), most_central_copies(scanner.robot(), pose.angles), joint, angle);
   }
   auto result = with_place_of_tool(scanner, pose);
   if (result && scanner.task().redundancy.is_point()) result->at.redundancy = found.at.redundancy;
@@ -60,7 +69,8 @@ std::optional<FoundPose> with_joint_at(const PoseScanner& scanner, const FoundPo
 Symmetry symmetry_of(const PoseScanner& scanner) {
   const PoseTask& task = scanner.task();
   const Robot& robot = scanner.robot();
-  const Eigen::Vector3d axis1(0, -robot.joints[0].sin_alpha(), robot.joints[0].cos_alpha());
+  const Eigen::Vector3d axis1 =
+      robot.base.linear() * Eigen::Vector3d(0, -robot.joints[0].sin_alpha(), robot.joints[0].cos_alpha());
   const auto along_axis1 = [&](const Eigen::Vector3d& v) {
     return v.cross(axis1).norm() <= kAlongAxis * v.norm();
   };
@@ -77,7 +87,7 @@ Symmetry symmetry_of(const PoseScanner& scanner) {
 // In steps to either side until one is not allowed, then by bisection.
 PoseFamily family_of(const PoseScanner& scanner, const FoundPose& found, PoseFamily::Kind kind, int joint) {
   PoseFamily family{kind, found.angles[joint], found.angles[joint]};
-  const Joint& limits = scanner.robot().joints[joint];
+  const AngleRange limits = scanner.robot().range(joint, found.angles);
   for (const double sense : {-1.0, 1.0}) {
     const double margin = scanner.task().limit_margin_rad;
     const double end = sense < 0 ? limits.min_rad + margin : limits.max_rad - margin;
@@ -101,9 +111,9 @@ PoseFamily family_of(const PoseScanner& scanner, const FoundPose& found, PoseFam
 FoundPose central_member(const PoseScanner& scanner, FoundPose found, const Symmetry& symmetry) {
   for (const int j : {0, 5}) {
     if (!(j == 0 ? symmetry.base_turn : symmetry.tool_turn)) continue;
-    const Joint& joint = scanner.robot().joints[j];
+    const AngleRange range = scanner.robot().range(j, found.angles);
     const double margin = scanner.task().limit_margin_rad;
-    const double central = std::clamp(0.0, joint.min_rad + margin, joint.max_rad - margin);
+    const double central = std::clamp(0.0, range.min_rad + margin, range.max_rad - margin);
     if (const auto moved = with_joint_at(scanner, found, j, central)) found = *moved;
   }
   return found;

@@ -93,8 +93,8 @@ class Refinement {
     const bool away = task_.singularity_margin > 0;
     result.constraints.resize(kJoints + (away ? 1 : 0));
     for (int j = 0; j < kJoints; ++j) {
-      const Joint& joint = scanner_.robot().joints[j];
-      result.constraints[j] = joint.margin_rad(evaluation->angles[j]) - task_.limit_margin_rad;
+      const AngleRange range = scanner_.robot().range(j, evaluation->angles);
+      result.constraints[j] = range.margin_rad(evaluation->angles[j]) - task_.limit_margin_rad;
     }
     if (away) {
       result.constraints[kJoints] =

@@ -85,16 +85,19 @@ void PoseScanner::scan_samples(const Eigen::Vector3d& point, const Take& take) c
 template <typename Take>
 void PoseScanner::scan_coaxial_samples(const Eigen::Vector3d& point, const Take& take) const {
   const Eigen::Vector3d home_point = inverse_.home_from_base() * point;
-  const ArmConstants& k = inverse_.constants();
   ArmLanes lanes;
   double compliance[6][kArms], merit[kArms] = {};
   solve(samples_.front(), point, lanes);
   double margin_of_five[kBranches];
+  AngleRange range6[kBranches];
   for (int b = 0; b < kBranches; ++b) {
+    JointAngles angles;
+    for (int j = 0; j < kJoints; ++j) angles[j] = lanes.angle[j][b];
     margin_of_five[b] = std::isfinite(lanes.limit_margin[b]) ? kInfinity : -kInfinity;
     for (int j = 0; j < 5; ++j) {
-      margin_of_five[b] = std::min(margin_of_five[b], robot_.joints[j].margin_rad(lanes.angle[j][b]));
+      margin_of_five[b] = std::min(margin_of_five[b], robot_.range(j, angles).margin_rad(angles[j]));
     }
+    range6[b] = robot_.range(5, angles);
   }
   if (!any_keeps_limits(margin_of_five)) {
     for (int b = 0; b < kBranches; ++b) take(Candidate{0, lanes.limit_margin[b], 0, b});
@@ -107,8 +110,8 @@ void PoseScanner::scan_coaxial_samples(const Eigen::Vector3d& point, const Take&
     if (i > 0 && task_.stiffness.feels_tool_turn()) arm_merits(sample, compliance, merit);
     for (int b = 0; b < kBranches; ++b) {
       double q6 = lanes.angle[5][b] + turn_sense_ * (sample.turn - samples_.front().turn);
-      q6 += kTwoPi * std::nearbyint((k.middle[5] - q6) / kTwoPi);
-      take(Candidate{merit[b % kArms], std::min(margin_of_five[b], robot_.joints[5].margin_rad(q6)),
+      q6 += kTwoPi * std::nearbyint((range6[b].middle_rad() - q6) / kTwoPi);
+      take(Candidate{merit[b % kArms], std::min(margin_of_five[b], range6[b].margin_rad(q6)),
                      static_cast<int>(i), b});
     }
   }

@@ -64,7 +64,7 @@ Obstacle obstacle_of(const PoseScanner& scanner, const PlaneScan& scan) {
   if (!evaluation) return {Obstacle::Kind::kOutOfReach};
   Obstacle obstacle{Obstacle::Kind::kJointLimit, 0, std::numeric_limits<double>::infinity()};
   for (int j = 0; j < kJoints; ++j) {
-    const double left = scanner.robot().joints[j].margin_rad(evaluation->angles[j]);
+    const double left = scanner.robot().range(j, evaluation->angles).margin_rad(evaluation->angles[j]);
     if (left < obstacle.margin_rad) obstacle = {Obstacle::Kind::kJointLimit, j, left};
   }
   if (obstacle.margin_rad < scanner.task().limit_margin_rad) return obstacle;

@@ -332,7 +332,7 @@ TEST_CASE("no pose, and why") {
           if (s.limit_margin_rad <= least) continue;
           least = s.limit_margin_rad;
           for (int j = 0; j < kJoints; ++j) {
-            if (robot.joints[j].margin_rad(s.angles[j]) == least) joint = j;
+            if (robot.range(j, s.angles).margin_rad(s.angles[j]) == least) joint = j;
           }
         }
       }

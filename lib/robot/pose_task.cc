@@ -28,7 +28,8 @@ PlaneReach plane_reach(const Robot& robot, const Plane& plane, const Eigen::Vect
   Eigen::Isometry3d tool = robot.tool_in_frame6();
   tool.translation() += j[5].d_m * Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d from_wrist = tool.linear().transpose() * tool.translation();  // in the tool's frame
-  const Eigen::Vector3d home(j[0].a_m, -j[0].d_m * j[0].sin_alpha(), j[0].d_m * j[0].cos_alpha());
+  const Eigen::Vector3d home =
+      robot.base * Eigen::Vector3d(j[0].a_m, -j[0].d_m * j[0].sin_alpha(), j[0].d_m * j[0].cos_alpha());
   const Eigen::Vector3d centre = home + from_wrist.z() * tool_axis - plane.origin;
   const double radius = arm + from_wrist.head<2>().norm();
   const double distance = centre.dot(plane.x_axis.cross(plane.y_axis));

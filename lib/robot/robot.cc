@@ -23,17 +23,47 @@ void Joint::set_alpha(double rad) {
   sin_alpha_ = without_rounding(std::sin(rad));
 }
 
-JointAngles most_central_copies(const Robot& robot, const JointAngles& angles) {
-  JointAngles moved = angles;
+double Robot::turn_rad(int j, const JointAngles& angles) const {
+  const auto& coupling = joints[j].coupling;
+  return coupling ? angles[j] + coupling->ratio * angles[coupling->follows] : angles[j];
+}
+
+// Both intervals hold at once, so that their intersection is one, and the least of the four distances to
+// their ends is the distance to its ends.
+AngleRange Robot::range(int j, const JointAngles& angles) const {
+  const Joint& joint = joints[j];
+  if (!joint.coupling) return {joint.min_rad, joint.max_rad};
+  const double added = joint.coupling->ratio * angles[joint.coupling->follows];
+  return {std::max(joint.min_rad, joint.coupled_min_rad - added),
+          std::min(joint.max_rad, joint.coupled_max_rad - added)};
+}
+
+JointAngles joint_turns(const Robot& robot, const JointAngles& angles) {
+  JointAngles turns;
+  for (int j = 0; j < kJoints; ++j) turns[j] = robot.turn_rad(j, angles);
+  return turns;
+}
+
+JointAngles angles_of_turns(const Robot& robot, const JointAngles& turns) {
+  JointAngles angles = turns;
   for (int j = 0; j < kJoints; ++j) {
-    moved[j] += kTwoPi * std::nearbyint((robot.joints[j].middle_rad() - angles[j]) / kTwoPi);
+    if (const auto& c = robot.joints[j].coupling) angles[j] -= c->ratio * angles[c->follows];
+  }
+  return angles;
+}
+
+JointAngles most_central_copies(const Robot& robot, const JointAngles& angles) {
+  JointAngles moved = joint_turns(robot, angles);
+  for (int j = 0; j < kJoints; ++j) {
+    if (const auto& c = robot.joints[j].coupling) moved[j] -= c->ratio * moved[c->follows];
+    moved[j] += kTwoPi * std::nearbyint((robot.range(j, moved).middle_rad() - moved[j]) / kTwoPi);
   }
   return moved;
 }
 
 double limit_margin_rad(const Robot& robot, const JointAngles& angles) {
   double margin = std::numeric_limits<double>::infinity();
-  for (int j = 0; j < kJoints; ++j) margin = std::min(margin, robot.joints[j].margin_rad(angles[j]));
+  for (int j = 0; j < kJoints; ++j) margin = std::min(margin, robot.range(j, angles).margin_rad(angles[j]));
   return margin;
 }
 

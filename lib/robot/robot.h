@@ -6,16 +6,48 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace stablecut::robot {
 
 inline constexpr int kJoints = 6;
 
-/// Controller angles A1..A6, rad. Not DH angles: theta = sign * angle + offset.
+/// Controller angles A1..A6, rad. Not DH angles: theta = sign * (angle + ratio * followed angle) + offset.
 using JointAngles = Eigen::Matrix<double, kJoints, 1>;
 
+/// What a controller angle may be, rad.
+struct AngleRange {
+  double min_rad, max_rad;
+
+  double middle_rad() const { return 0.5 * (min_rad + max_rad); }
+  double half_range_rad() const { return 0.5 * (max_rad - min_rad); }
+  /// Distance to the nearer end; negative outside.
+  double margin_rad(double angle_rad) const { return half_range_rad() - std::abs(angle_rad - middle_rad()); }
+};
+
+/// A controller angle that is not counted from the link before: the joint turns by angle + ratio * the
+/// controller angle of a joint before it. Axis 3 of many robots is measured against the horizontal.
+struct Coupling {
+  int follows = 0;  ///< index of that joint, below the joint's own
+  double ratio = 1;
+};
+
+/// All points within `radius_m` of the straight line between two points.
+struct Capsule {
+  Eigen::Vector3d from_m, to_m;
+  double radius_m = 0;
+};
+
+struct LinkMass {
+  double mass_kg = 0;
+  Eigen::Vector3d center_m;  ///< centre of mass
+};
+
+/// A joint and the link that it moves. What belongs to the link is in frame i, which moves with it.
 struct Joint {
   std::string name;
   double a_m = 0;         ///< of link i-1: distance between axes i-1 and i, along x of frame i-1
@@ -24,6 +56,12 @@ struct Joint {
   double theta_offset_rad = 0;
   double min_rad = -2 * std::numbers::pi;  ///< of the controller angle; limits are finite
   double max_rad = 2 * std::numbers::pi;
+  std::optional<Coupling> coupling;
+  /// Of angle + ratio * followed angle, where the joint is coupled: what its mechanics allow.
+  double coupled_min_rad = -std::numeric_limits<double>::infinity();
+  double coupled_max_rad = std::numeric_limits<double>::infinity();
+  std::optional<LinkMass> mass;   ///< of the link
+  std::vector<Capsule> capsules;  ///< that enclose the link; read and kept, not used by any search so far
 
   /// Of link i-1: the turn from axis i-1 to axis i about x of frame i-1. A sine or cosine within 1e-14 of a
   /// whole number is taken as that number.
@@ -32,27 +70,38 @@ struct Joint {
   double cos_alpha() const { return cos_alpha_; }
   double sin_alpha() const { return sin_alpha_; }
 
-  double theta_of(double angle_rad) const { return theta_sign * angle_rad + theta_offset_rad; }
-  double middle_rad() const { return 0.5 * (min_rad + max_rad); }
-  double half_range_rad() const { return 0.5 * (max_rad - min_rad); }
-  /// Distance to the nearer limit; negative outside.
-  double margin_rad(double angle_rad) const { return half_range_rad() - std::abs(angle_rad - middle_rad()); }
+  double half_range_rad() const { return AngleRange{min_rad, max_rad}.half_range_rad(); }
 
  private:
   double alpha_rad_ = 0, cos_alpha_ = 1, sin_alpha_ = 0;
 };
 
 struct Robot {
+  /// Frame 0 of the table in the base frame, in which positions, directions and forces are given.
+  Eigen::Isometry3d base = Eigen::Isometry3d::Identity();
   std::array<Joint, kJoints> joints;
   Eigen::Isometry3d flange = Eigen::Isometry3d::Identity();  ///< in frame 6
   /// In the flange frame; its origin is the tool point and its z axis the tool axis.
   Eigen::Isometry3d tool = Eigen::Isometry3d::Identity();
 
+  std::vector<Capsule> base_capsules;  ///< of what does not move, frame 0; not used so far, as those of links
+  double keep_out_radius_m = 0;  ///< of a cylinder round axis 1 that the tool keeps out of; not used so far
+
   Eigen::Isometry3d tool_in_frame6() const { return flange * tool; }
+  /// By how much joint j turns: its controller angle, with what a coupling adds to it.
+  double turn_rad(int j, const JointAngles& angles) const;
+  /// What the controller angle of joint j may be while the joint that it follows stands as in `angles`. Empty
+  /// (the end before the beginning) where its coupled range leaves nothing.
+  AngleRange range(int j, const JointAngles& angles) const;
 };
 
-/// Each angle moved by whole turns to its copy nearest the middle of its range, which is the copy with the
-/// largest margin to the limits.
+/// theta_i = sign_i * turn_i + offset_i.
+JointAngles joint_turns(const Robot& robot, const JointAngles& angles);
+/// The controller angles that turn the joints so.
+JointAngles angles_of_turns(const Robot& robot, const JointAngles& turns);
+
+/// Each joint moved by whole turns to the copy of its angle nearest the middle of its range, which is the
+/// copy with the largest margin to the limits.
 JointAngles most_central_copies(const Robot& robot, const JointAngles& angles);
 
 /// The least distance of any joint to its nearer limit, rad; negative outside.

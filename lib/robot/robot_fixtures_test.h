@@ -48,11 +48,36 @@ inline JointAngles k_theta_2d() {
 
 using numerics::uniform;
 
+/// Inside all limits.
 inline JointAngles random_angles(const Robot& robot, std::mt19937_64& generator) {
   JointAngles angles;
-  for (int j = 0; j < kJoints; ++j)
-    angles[j] = uniform(generator, robot.joints[j].min_rad, robot.joints[j].max_rad);
+  do {
+    for (int j = 0; j < kJoints; ++j)
+      angles[j] = uniform(generator, robot.joints[j].min_rad, robot.joints[j].max_rad);
+  } while (limit_margin_rad(robot, angles) < 0);
   return angles;
+}
+
+inline Eigen::Isometry3d random_frame(std::mt19937_64& generator, double size_m) {
+  const auto normal = [&] { return numerics::unit_normal(generator); };
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  const double w = normal(), x = normal(), y = normal(), z = normal();
+  frame.linear() = Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix();
+  for (double& value : frame.translation()) value = uniform(generator, -size_m, size_m);
+  return frame;
+}
+
+/// The KR360 as a FANUC would measure it: angle 3 against the horizontal, with the range of joint 3 against
+/// the upper arm as its coupled range. Both robots take the same poses.
+inline Robot coupled_kr360() {
+  Robot robot = kr360();
+  Joint& third = robot.joints[2];
+  third.coupling = {1, -1};
+  third.coupled_min_rad = third.min_rad;
+  third.coupled_max_rad = third.max_rad;
+  third.min_rad -= robot.joints[1].half_range_rad() * 2 + 1;
+  third.max_rad += robot.joints[1].half_range_rad() * 2 + 1;
+  return robot;
 }
 
 /// Tool straight down at a height (m), whole plane, all redundancy angles, 588.6 N down (the paper's 60 kg).

@@ -74,3 +74,41 @@ TEST_CASE("a robot document's frames are rotations to rounding") {
   document["tool"]["rotation"][0][0] = 0.9;
   CHECK_THROWS_AS(robot_from_json(document, source), DataError);
 }
+
+TEST_CASE("a robot document's coupling, base, masses and shapes") {
+  const Source source = file("kr360.json");
+  Json document = parse_json(source);
+  const robot::Robot plain = robot_from_json(document, source);
+  CHECK((plain.base.matrix() == Eigen::Matrix4d::Identity() && plain.keep_out_radius_m == 0));
+  document["coupling"] = {{{"joint", "A3"}, {"follows", "A2"}, {"ratio", -1}}};
+  document["base"] = {{"translation_mm", {1000, 0, 500}}, {"rotation", {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}}};
+  document["keep_out_radius_mm"] = 600;
+  const Json capsule = {{"from_mm", {0, 0, 0}}, {"to_mm", {1300, 0, 0}}, {"radius_mm", 250}};
+  document["base_capsules"] = {capsule};
+  Json& third = document["joints"][2];
+  third["coupled_min_deg"] = -90;
+  third["coupled_max_deg"] = 120;
+  third["mass_kg"] = 300;
+  third["center_mm"] = {10, 20, 30};
+  third["capsules"] = {capsule, capsule};
+  const robot::Robot robot = robot_from_json(document, source);
+  const robot::Joint& joint = robot.joints[2];
+  REQUIRE(joint.coupling);
+  CHECK((joint.coupling->follows == 1 && joint.coupling->ratio == -1));
+  CHECK_FALSE(robot.joints[1].coupling);
+  CHECK(joint.coupled_min_rad == Approx(-kPi / 2));
+  CHECK(joint.coupled_max_rad == Approx(kPi * 2 / 3));
+  REQUIRE(joint.mass);
+  CHECK((joint.mass->mass_kg == 300 && joint.mass->center_m.isApprox(Eigen::Vector3d(0.01, 0.02, 0.03))));
+  REQUIRE(joint.capsules.size() == 2);
+  CHECK((joint.capsules[1].to_m.isApprox(Eigen::Vector3d(1.3, 0, 0)) && joint.capsules[1].radius_m == 0.25));
+  CHECK(robot.base_capsules.size() == 1);
+  CHECK(robot.keep_out_radius_m == 0.6);
+  // The robot stands at (1000, 0, 500), turned by 90 degrees about z, and angle 3 loses what angle 2 turns.
+  const auto tool_at = [](const robot::Robot& of, double a2, double a3) -> Eigen::Vector3d {
+    return robot::robot_pose(of, (robot::JointAngles() << 0.3, a2, a3, 0.4, 0.5, 0.6).finished())
+        .tool.translation();
+  };
+  const Eigen::Vector3d p = tool_at(plain, -1, 0.5 + 1);
+  CHECK((tool_at(robot, -1, 0.5) - Eigen::Vector3d(1 - p.y(), p.x(), 0.5 + p.z())).norm() < 1e-14);
+}
