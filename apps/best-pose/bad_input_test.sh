@@ -17,6 +17,8 @@ stiffness_with 'del(.stiffness_n_m_per_rad)' '/stiffness_n_m_per_rad: missing'
 stiffness_with '.std_n_m_per_rad = [1, 2, 3, 4, 5, -6]' '/std_n_m_per_rad/5: -6: expected'
 stiffness_with '.covariance_compliance = [[1]]' '/covariance_compliance: a list of 1: expected 6 rows'
 stiffness_with '.covariance_compliance = [range(6) | [range(6)]]' '/covariance_compliance: a list of 6: expected a covariance matrix'
+stiffness_with '.joints = ["A1", "A2", "A3", "A4", "joint_5", "A6"]' '/joints/4: "joint_5": expected "A5", as in the robot document'
+stiffness_with '.joints = ["A1", "A2"]' '/joints: a list of 2: expected 6 names'
 stiffness_with '.format = "stablecut/cut/1"' '/format: "stablecut/cut/1": expected "stablecut/joint-stiffness/1"'
 refused 65 '^best-pose: <stdin>: empty input' "${search[@]}" </dev/null
 

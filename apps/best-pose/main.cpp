@@ -96,7 +96,8 @@ class BestPose : public cli::Tool {
     const document::Input robot_input = read_input(robot_path_, cli::InputForm::kJson);
     const robot::Robot robot = document::robot_from_json(robot_input.document, robot_input.source);
     const document::Input input = read_main_input(cli::InputForm::kJson);
-    const robot::JointStiffness joints = document::joint_stiffness_from_json(input.document, input.source);
+    const robot::JointStiffness joints =
+        document::joint_stiffness_from_json(input.document, input.source, robot);
     const robot::JointAngles compliance = joint_compliances(joints, assumed_, robot, input.source);
     document.covariance = joints.compliance_covariance;
     if (evaluate) return score_poses(robot, compliance, document);
@@ -160,7 +161,9 @@ class BestPose : public cli::Tool {
   void score_poses(const robot::Robot& robot, const robot::JointAngles& compliance,
                    document::PoseDocument& document) {
     const document::Input input = read_input(evaluate_path_, cli::InputForm::kJson);
-    for (const robot::JointAngles& angles : document::pose_list_from_json(input.document, input.source)) {
+    const document::PoseListDocument list = document::pose_list_from_json(input.document, input.source);
+    document.names = list.names;
+    for (const robot::JointAngles& angles : list.poses) {
       const std::string place = input.source.name + ": /poses/" + std::to_string(document.evaluated.size());
       document.evaluated.push_back(
           robot::report_pose(robot, angles, document.task, compliance, document.covariance));

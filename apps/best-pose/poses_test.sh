@@ -20,6 +20,12 @@ check_jq "Table 2 lies at 1.594 to 1.601 m" height_1600_mm.json '[.evaluated[].t
 check_jq "pose 1 of Table 2 is the stiffest" height_1600_mm.json '.evaluated[0].rank == 1'
 check_jq "margins inside the limits" height_1600_mm.json 'all(.evaluated[]; .limit_margin_deg > 0 and .singularity_margin > 0)'
 
+jq '.poses |= (to_entries | map(.value + {name: "pose \(.key)"}))' poses.json >named.json
+run --evaluate named.json -o named-scores.json
+check_jq "names are kept" named-scores.json '[.evaluated[].name] == [range(6) | "pose \(.)"]'
+jq '.joints = ["A1", "A2", "A3", "A4", "A5", "A6"]' k2d.json >own.json
+check "the stiffness of this robot" best-pose --robot "$robot" --evaluate named.json own.json -o own-scores.json
+
 # Optima straight down (independent code; 6.381e6 on A3's limit, where that has 6.37e6 near it), to 0.1 %; the limit margin
 # decides.
 optimum() {

@@ -81,6 +81,14 @@ csv_is "A1,A2,A3,A4,A5,A6,Fx,Fy,Fz,dx,dy,dz,force_point_x\n1,2,3,4,5,6,0,0,9,1,2
 refused 65 '^joint-stiffness: loads.json: line 1:' joint-stiffness --robot "$robot" --from csv loads.json
 refused 65 '^joint-stiffness: loads.csv: line 1' joint-stiffness --robot "$robot" --from json loads.csv
 
+
+# Angles in radians, poses outside the limits, the stiffness of another robot.
+jq '.samples[].joints_deg |= map(. * 3.14159265 / 180) | .samples[].force_n = [0, 0, 0]' loads.json >radians.json
+refused 1 '^joint-stiffness: radians.json: no joint can be identified: .*; the joint angles look like radians: the largest is 1.92, expected degrees$' joint-stiffness --robot "$robot" radians.json
+echo '{"format": "stablecut/pose-list/1", "poses": [{"joints_deg": [0, 90, 0, 0, 0, 0]}, {"joints_deg": [0, 0, 150, 0, 0, 0]}]}' >outside.json
+refused 1 '^joint-stiffness: outside.json: 2 of 2 poses are outside the joint limits, the first /poses/0: A2 by 70 degrees$' joint-stiffness --robot "$robot" --plan 3 outside.json
+echo '{"format": "stablecut/joint-stiffness/1", "joints": ["A1", "A2", "J3", "A4", "A5", "A6"], "stiffness_n_m_per_rad": [1e6, 1e6, 1e6, 1e6, 1e6, 1e6]}' >other.json
+refused 65 '^joint-stiffness: other.json: /joints/2: "J3": expected "A3", as in the robot document' joint-stiffness --robot "$robot" --plan 3 --expected other.json outside.json
 refused 64 '^joint-stiffness: --robot: missing: expected a robot document' joint-stiffness loads.json
 refused 64 '^joint-stiffness: --components: xq: expected' joint-stiffness --robot "$robot" --components xq loads.json
 refused 64 '^joint-stiffness: --components: xx: expected' joint-stiffness --robot "$robot" --components xx loads.json

@@ -1,6 +1,7 @@
 // joint-stiffness: loads and deflections at robot poses in, joint stiffness out; or, with --plan, which poses
 // and loads to measure.
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -14,6 +15,8 @@
 #include "document/kinds/pose_list_json.h"
 #include "document/kinds/robot_json.h"
 #include "document/measured/load_samples_csv.h"
+#include "pose_words.h"
+#include "robot/given_poses.h"
 #include "words.h"
 
 namespace stablecut {
@@ -112,12 +115,22 @@ class JointStiffnessTool : public cli::Tool {
         csv ? document::load_samples_from_csv(input.source, robot, components_)
             : document::load_samples_from_json(input.document, input.source, robot, components_);
     if (const std::string text = unit_warning(samples, name); !text.empty()) warn(text);
+    std::vector<robot::JointAngles> angles;
+    for (const robot::LoadSample& sample : samples.samples) angles.push_back(sample.angles);
+    const std::string radians = radians_text(angles);
     document::IdentificationDocument document;
     document.options = {loss_ == "huber", components_};
     document.places = samples.places;
+    document.names = samples.names;
     document.identification = robot::identify_stiffness(robot, samples.samples, document.options);
     const robot::Identification& found = document.identification;
-    if (!found.any_identified()) throw NoAnswer(name + ": " + nothing_identified_text(found, robot));
+    if (!found.any_identified()) {
+      throw NoAnswer(name + ": " + nothing_identified_text(found, robot) +
+                     (radians.empty() ? "" : "; " + radians));
+    }
+    if (!radians.empty()) warn(name + ": " + radians);
+    const std::string outside = outside_limits_text(robot, angles, samples.places, "samples");
+    if (!outside.empty()) warn(name + ": " + outside);
     for (const std::string& text :
          identification_warnings(found, robot, samples, name, document.options.huber)) {
       warn(text);
@@ -129,11 +142,12 @@ class JointStiffnessTool : public cli::Tool {
     document::PlanDocument document;
     if (!expected_path_.empty()) {
       const document::Input expected = read_input(expected_path_, cli::InputForm::kJson);
-      document.expected = document::joint_stiffness_from_json(expected.document, expected.source);
+      document.expected = document::joint_stiffness_from_json(expected.document, expected.source, robot);
     }
     const document::Input input = read_main_input(cli::InputForm::kJson);
-    const std::vector<robot::JointAngles> poses = document::pose_list_from_json(input.document, input.source);
-    add_candidates(poses, robot, document);
+    const document::PoseListDocument list = document::pose_list_from_json(input.document, input.source);
+    document.names = list.names;
+    add_candidates(list.poses, robot, input.source.name, document);
     cli::refuse_if(*plan_ > kMostPlanned, "--plan: expected at most " + std::to_string(kMostPlanned));
     document.plan = robot::plan_measurements(robot, document.candidates, components_, *plan_);
     for (int j = 0; j < robot::kJoints; ++j) {
@@ -144,14 +158,25 @@ class JointStiffnessTool : public cli::Tool {
     write_document(main_output(), document::plan_to_json(document, robot));
   }
 
-  // Every pose with every load.
+  // Every pose inside the joint limits with every load.
   void add_candidates(const std::vector<robot::JointAngles>& poses, const robot::Robot& robot,
-                      document::PlanDocument& document) const {
+                      const std::string& name, document::PlanDocument& document) const {
+    std::vector<std::string> places;
+    for (std::size_t p = 0; p < poses.size(); ++p) places.push_back("/poses/" + std::to_string(p));
+    const std::string outside = outside_limits_text(robot, poses, places, "poses");
+    std::vector<bool> allowed(poses.size(), true);
+    for (const robot::OutsideLimits& pose : robot::poses_outside_limits(robot, poses))
+      allowed[pose.pose] = false;
+    if (std::find(allowed.begin(), allowed.end(), true) == allowed.end())
+      throw NoAnswer(name + ": " + outside);
+    if (!outside.empty()) warn(name + ": " + outside + ": left out");
+    if (const std::string radians = radians_text(poses); !radians.empty()) warn(name + ": " + radians);
     const auto point = [&](const Vector& mm) {
       return mm ? Eigen::Vector3d(Eigen::Vector3d(mm->data()) * 1e-3) : robot.tool.translation();
     };
     const auto loads = loads_.empty() ? std::vector(kPlanLoads.begin(), kPlanLoads.end()) : loads_;
     for (std::size_t p = 0; p < poses.size(); ++p) {
+      if (!allowed[p]) continue;
       for (const auto& load : loads) {
         robot::LoadSample sample;
         sample.angles = poses[p];

@@ -95,3 +95,21 @@ joint-stiffness --robot "$robot" --plan 12 --load-point 150,50,210 --measuring-p
 check_jq "a plan with points off the axis sees joint 6" plan.json '.rank == 6 and (.identifiable | all)'
 refused 64 '^joint-stiffness: --from, --loss: expected without --plan' joint-stiffness --robot "$robot" --plan 3 --loss huber poses.json
 refused 64 '^joint-stiffness: --load, --std-mm, --expected, --load-point, --measuring-point: expected with --plan only' joint-stiffness --robot "$robot" --std-mm 1 loads.json
+
+# Poses outside the limits: samples are used and said, poses of a plan left out. Names are kept.
+jq '.samples[3].joints_deg[1] = 25 | .samples[7].joints_deg[1] = 30' loads.json >outside.json
+joint-stiffness --robot "$robot" outside.json -o found.json 2>.err
+check "samples outside the limits are said" grep -q '^joint-stiffness: warning: outside.json: 2 of [0-9]* samples are outside the joint limits, the first /samples/3: A2 by 5 degrees' .err
+jq '.poses |= [{name: "beyond", joints_deg: [0, 90, 0, 0, 0, 0]}] + . | .poses |= (to_entries | map(.value + {name: "p\(.key + 1)"}))' poses.json >named.json
+joint-stiffness --robot "$robot" --plan 6 named.json -o plan.json 2>.err
+check "poses outside the limits are left out" grep -q '^joint-stiffness: warning: named.json: 1 of [0-9]* poses are outside the joint limits, the first /poses/0: A2 by 70 degrees: left out' .err
+check_jq "and not chosen; names are kept" plan.json '(.samples | length) == 6 and all(.samples[]; .pose > 1 and .name == "p\(.pose)")'
+jq '.samples |= (to_entries | map(.value + {name: "s\(.key)"})) | .samples[4].deflection_mm[2] += 1' loads.json >outlier.json
+joint-stiffness --robot "$robot" --loss huber --quiet outlier.json -o huber.json
+check_jq "an outlier has its sample's name" huber.json '.outliers[0].name == "s4"'
+awk -F';' -v OFS=';' 'NR == 1 {print $0, "Name"; next} !/^;*$/ {print $0, "r" NR}' loads.csv | awk -F';' -v OFS=';' 'NR == 5 {$1 = int($1) + 1000} {print}' >named.csv
+joint-stiffness --robot "$robot" --loss huber --quiet named.csv -o huber.json
+check_jq "also from a column" huber.json '.outliers[0].name == "r5"'
+jq '.samples[].joints_deg |= map(. * 3.14159265 / 180)' loads.json >radians.json
+joint-stiffness --robot "$robot" radians.json -o found.json 2>.err
+check "angles in radians are noticed" grep -q 'radians.json: .*the joint angles look like radians: the largest is [0-9.]*, expected degrees' .err

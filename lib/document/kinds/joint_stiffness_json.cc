@@ -45,9 +45,21 @@ robot::Matrix6d covariance_from(const Node& node, const robot::JointStiffness& j
   return covariance;
 }
 
+// The stiffness of another robot is none of this one's.
+void check_joint_names(const Node& joints, const robot::Robot& robot) {
+  const auto items = joints.items();
+  if (items.size() != robot::kJoints) joints.fail("expected 6 names of joints");
+  for (std::size_t j = 0; j < robot::kJoints; ++j) {
+    const std::string& name = robot.joints[j].name;
+    if (items[j].text() != name)
+      items[j].fail("expected \"" + name + "\", as in the robot document: is it this robot's?");
+  }
+}
+
 }  // namespace
 
-robot::JointStiffness joint_stiffness_from_json(const Json& document, const Source& source) {
+robot::JointStiffness joint_stiffness_from_json(const Json& document, const Source& source,
+                                                const robot::Robot& robot) {
   const Node root = document_root(document, source, "joint-stiffness");
   root.check_names({"format",
                     "joints",
@@ -69,6 +81,7 @@ robot::JointStiffness joint_stiffness_from_json(const Json& document, const Sour
                     "samples",
                     "outliers",
                     "provenance"});
+  if (const auto names = root.find("joints")) check_joint_names(*names, robot);
   robot::JointStiffness joints;
   const Node stiffness = root.at("stiffness_n_m_per_rad");
   const auto items = stiffness.items();
@@ -157,6 +170,8 @@ Json identification_to_json(const IdentificationDocument& document, const robot:
                         {"residual_um", outlier.residual_m * 1e6},
                         {"deviations", outlier.deviations},
                         {"weight", outlier.weight}});
+    if (!document.names[at(outlier.sample)].empty())
+      outliers.back()["name"] = document.names[at(outlier.sample)];
   }
   result["outliers"] = std::move(outliers);
   return result;

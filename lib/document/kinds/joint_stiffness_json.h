@@ -11,13 +11,15 @@
 namespace stablecut::document {
 
 /// Reads stiffness and, where given, the compliances' covariance (or their deviations from std). Throws
-/// DataError.
-robot::JointStiffness joint_stiffness_from_json(const Json& document, const Source& source);
+/// DataError; also where the document names other joints than the robot's.
+robot::JointStiffness joint_stiffness_from_json(const Json& document, const Source& source,
+                                                const robot::Robot& robot);
 
 struct IdentificationDocument {
   robot::Identification identification;
   robot::IdentificationOptions options;
   std::vector<std::string> places;  ///< of the samples
+  std::vector<std::string> names;   ///< of the samples; empty where one has none
 };
 
 /// The document without provenance.

@@ -42,7 +42,7 @@ LoadSamplesDocument load_samples_from_json(const Json& document, const Source& s
   if (const auto frame = root.find("frame")) frame->word({"base"});
   LoadSamplesDocument result;
   for (const Node& item : root.at("samples").items(1)) {
-    item.check_names({"joints_deg", "force_n", "deflection_mm", "moment_n_m", "rotation_rad",
+    item.check_names({"name", "joints_deg", "force_n", "deflection_mm", "moment_n_m", "rotation_rad",
                       "force_point_mm", "measuring_point_mm", "std_mm", "std_rad"});
     robot::LoadSample sample;
     sample.angles = joint_angles_from(item.at("joints_deg"));
@@ -71,6 +71,8 @@ LoadSamplesDocument load_samples_from_json(const Json& document, const Source& s
     }
     result.samples.push_back(std::move(sample));
     result.places.push_back(item.pointer());
+    const auto name = item.find("name");
+    result.names.push_back(name ? name->text() : "");
   }
   return result;
 }

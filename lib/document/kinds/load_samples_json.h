@@ -16,6 +16,7 @@ inline constexpr double kLargestLoad = 1e9, kLargestLength = 1e3, kLargestAngle 
 struct LoadSamplesDocument {
   std::vector<robot::LoadSample> samples;
   std::vector<std::string> places;  ///< JSON pointer or line of each, for messages
+  std::vector<std::string> names;   ///< of each; empty where it has none
 };
 
 /// Deflection components that are not in `components` may be null. Points default to the robot's tool point.

@@ -14,6 +14,8 @@ Json plan_to_json(const PlanDocument& document, const robot::Robot& robot) {
     samples.push_back({{"pose", document.pose[k] + 1},
                        {"joints_deg", joint_angles_to_json(sample.angles)},
                        {"force_n", {sample.force_n[0], sample.force_n[1], sample.force_n[2]}}});
+    const std::string& name = document.names[document.pose[k]];
+    if (!name.empty()) samples.back()["name"] = name;
   }
   Json names = Json::array(), identifiable = Json::array(), compliance = Json::array(),
        stiffness = Json::array();

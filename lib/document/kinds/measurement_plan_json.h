@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "document/text/json_text.h"
@@ -14,6 +15,7 @@ struct PlanDocument {
   robot::MeasurementPlan plan;
   std::vector<robot::LoadSample> candidates;
   std::vector<int> pose;                          ///< of each candidate, 0-based in the pose list
+  std::vector<std::string> names;                 ///< of the pose list's poses; empty where one has none
   std::optional<robot::JointStiffness> expected;  ///< for deviations of the stiffness
 };
 

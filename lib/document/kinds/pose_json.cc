@@ -140,6 +140,7 @@ Json evaluation_to_json(const PoseDocument& document) {
   for (std::size_t i = 0; i < poses.size(); ++i) {
     Json pose = to_json(poses[i], document.task);
     pose["rank"] = rank[i];
+    if (!document.names[i].empty()) pose["name"] = document.names[i];
     if (document.covariance && i != order.front() && std::isfinite(poses[i].score)) {
       pose["probability_better"] =
           robot::probability_better(poses[i], poses[order.front()], document.task, *document.covariance);

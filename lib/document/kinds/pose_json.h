@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "document/text/json_text.h"
@@ -26,6 +27,7 @@ struct PoseDocument {
   robot::RedundancySweep sweep;            ///< at the best point
   // An evaluation.
   std::vector<robot::PoseReport> evaluated;
+  std::vector<std::string> names;  ///< of the evaluated poses; empty where one has none
 };
 
 /// The documents without provenance.

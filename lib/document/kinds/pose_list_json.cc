@@ -4,15 +4,17 @@
 
 namespace stablecut::document {
 
-std::vector<robot::JointAngles> pose_list_from_json(const Json& document, const Source& source) {
+PoseListDocument pose_list_from_json(const Json& document, const Source& source) {
   const Node root = document_root(document, source, "pose-list");
   root.check_names({"format", "poses", "provenance"});
-  std::vector<robot::JointAngles> poses;
+  PoseListDocument list;
   for (const Node& item : root.at("poses").items(1)) {
-    item.check_names({"joints_deg"});
-    poses.push_back(joint_angles_from(item.at("joints_deg")));
+    item.check_names({"name", "joints_deg"});
+    list.poses.push_back(joint_angles_from(item.at("joints_deg")));
+    const auto name = item.find("name");
+    list.names.push_back(name ? name->text() : "");
   }
-  return poses;
+  return list;
 }
 
 }  // namespace stablecut::document

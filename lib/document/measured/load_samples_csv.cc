@@ -207,6 +207,8 @@ class SampleTable {
       check_width(row);
       result.samples.push_back(sample_of(row));
       result.places.push_back(line_place(row.line));
+      result.names.push_back(name_column_ && *name_column_ < row.fields.size() ? row.fields[*name_column_]
+                                                                               : "");
     }
     return result;
   }
@@ -219,6 +221,7 @@ class SampleTable {
   void name_columns(const TableRow& header) {
     for (const std::string& text : header.fields) {
       const HeaderField field = header_field(text);
+      if (field.name == "name" && !name_column_) name_column_ = columns_.size();
       std::optional<Column> column = named_column(field, robot_);
       if (column) {
         const auto to_si = factor(column->kind, field.unit);
@@ -336,6 +339,7 @@ class SampleTable {
   const std::array<bool, 3>& components_;
   std::vector<TableRow> rows_;
   std::vector<std::optional<Column>> columns_;  // nothing: a column of something else
+  std::optional<std::size_t> name_column_;
   long header_line_ = 0;
 };
 
