@@ -29,19 +29,21 @@ struct JointLanes {
   Four angle, margin;
 };
 
-// `angles` holds those of the joints before. The range of a coupled joint is what Robot::range says.
-STABLECUT_INLINE JointLanes joint_lanes(const ArmConstants& robot, int joint, const Four& theta,
-                                        const Four angles[6]) {
-  const Four zero = {};
+// Without a coupling.
+STABLECUT_INLINE JointLanes joint_lanes(const ArmConstants& robot, int joint, const Four& theta) {
   Four angle = robot.sign[joint] * (theta - robot.offset[joint]);
-  Four least_angle = zero + robot.least[joint], most_angle = zero + robot.most[joint];
-  if (robot.follows[joint] >= 0) {
-    const Four added = robot.ratio[joint] * angles[robot.follows[joint]];
-    angle = angle - added;
-    least_angle = numerics::largest(least_angle, robot.coupled_least[joint] - added);
-    most_angle = least(most_angle, robot.coupled_most[joint] - added);
-  }
+  angle = angle + kTwoPi * numerics::nearest_whole((robot.middle[joint] - angle) * (1 / kTwoPi));
+  return {angle, robot.half_range[joint] - absolute(angle - robot.middle[joint])};
+}
+
+// With one; `angles` holds those of the joints before. The range is what Robot::range says.
+STABLECUT_INLINE JointLanes coupled_joint_lanes(const ArmConstants& robot, int joint, const Four& theta,
+                                                const Four angles[6]) {
+  const Four zero = {}, added = robot.ratio[joint] * angles[robot.follows[joint]];
+  const Four least_angle = numerics::largest(zero + robot.least[joint], robot.coupled_least[joint] - added);
+  const Four most_angle = least(zero + robot.most[joint], robot.coupled_most[joint] - added);
   const Four middle = 0.5 * (least_angle + most_angle), half_range = 0.5 * (most_angle - least_angle);
+  Four angle = robot.sign[joint] * (theta - robot.offset[joint]) - added;
   angle = angle + kTwoPi * numerics::nearest_whole((middle - angle) * (1 / kTwoPi));
   return {angle, half_range - absolute(angle - middle)};
 }
@@ -188,29 +190,29 @@ STABLECUT_INLINE Wrist solve_wrist(const ArmConstants& k, const HomeTarget& home
   return wrist;
 }
 
-// The controller angles of the eight branches, and each branch's margin to the limits.
+// The controller angles of the eight branches, and each branch's margin to the limits. The joints are looked
+// at in order, as one may follow another.
+template <bool coupled>
 STABLECUT_INLINE void store_angles(const ArmConstants& k, const Shoulder& shoulder, const Elbow& elbow,
                                    const Wrist& wrist, ArmLanes& out) {
   const Four theta4 = angle_of(wrist.s4, wrist.c4), theta5 = angle_of(wrist.s5, wrist.c5),
              theta6 = angle_of(wrist.s6, wrist.c6);
-  const Four thetas[2][6] = {{angle_of(shoulder.s1, shoulder.c1), angle_of(elbow.s2, elbow.c2),
-                              angle_of(k.elbow_sense * elbow.sp, elbow.cp), theta4, theta5, theta6},
-                             {{}, {}, {}, theta4 + kPi, -theta5, theta6 + kPi}};
-  const Four nowhere = Four{} - std::numeric_limits<double>::infinity();
-  Four angles[6] = {}, arm_margin = Four{} + std::numeric_limits<double>::infinity();
-  for (int j = 0; j < 3; ++j) {
-    const JointLanes joint = joint_lanes(k, j, thetas[0][j], angles);
-    angles[j] = joint.angle;
-    arm_margin = least(arm_margin, joint.margin);
-  }
-  arm_margin = elbow.reaches ? arm_margin : nowhere;
+  Four angles[6] = {};
+  const auto joint = [&](int j, const Four& theta, Four margin) {
+    const JointLanes lanes =
+        coupled && k.follows[j] >= 0 ? coupled_joint_lanes(k, j, theta, angles) : joint_lanes(k, j, theta);
+    angles[j] = lanes.angle;
+    return least(margin, lanes.margin);
+  };
+  const Four infinite = Four{} + std::numeric_limits<double>::infinity();
+  Four arm_margin = joint(0, angle_of(shoulder.s1, shoulder.c1), infinite);
+  arm_margin = joint(1, angle_of(elbow.s2, elbow.c2), arm_margin);
+  arm_margin = joint(2, angle_of(k.elbow_sense * elbow.sp, elbow.cp), arm_margin);
+  arm_margin = elbow.reaches ? arm_margin : -infinite;
   for (int w = 0; w < 2; ++w) {
-    Four margin = arm_margin;
-    for (int j = 3; j < 6; ++j) {
-      const JointLanes joint = joint_lanes(k, j, thetas[w][j], angles);
-      angles[j] = joint.angle;
-      margin = least(margin, joint.margin);
-    }
+    Four margin = joint(3, w == 0 ? theta4 : theta4 + kPi, arm_margin);
+    margin = joint(4, w == 0 ? theta5 : -theta5, margin);
+    margin = joint(5, w == 0 ? theta6 : theta6 + kPi, margin);
     for (int j = 0; j < 6; ++j) store(angles[j], out.angle[j] + w * kArms);
     store(margin, out.limit_margin + w * kArms);
   }
@@ -256,7 +258,10 @@ STABLECUT_WIDE void solve_arms(const ArmConstants& robot, const ArmTarget& targe
   } else {
     const ForearmAxes axes = forearm_axes(k, shoulder, elbow);
     const Wrist wrist = solve_wrist(k, home, axes);
-    store_angles(k, shoulder, elbow, wrist, out);
+    if (k.coupled)
+      store_angles<true>(k, shoulder, elbow, wrist, out);
+    else
+      store_angles<false>(k, shoulder, elbow, wrist, out);
     store_axes(k, shoulder, elbow, wrist, axes, out);
   }
   for (int i = 0; i < 3; ++i) {

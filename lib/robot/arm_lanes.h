@@ -23,7 +23,9 @@ struct ArmConstants {
   double d6;
   double sign[6], offset[6];  ///< theta = sign * (angle + ratio * followed angle) + offset
   double least[6], most[6];   ///< of the angle
-  int follows[6];             ///< index of the followed joint, below the joint's own; -1 for none
+  double middle[6], half_range[6];
+  bool coupled;    ///< any joint follows another
+  int follows[6];  ///< index of the followed joint, below the joint's own; -1 for none
   double ratio[6];
   double coupled_least[6], coupled_most[6];  ///< of angle + ratio * followed angle, or infinite
   double cos_free1, sin_free1;               ///< of theta of joint 1 where the target leaves it free

@@ -67,11 +67,15 @@ InverseKinematics::InverseKinematics(const Robot& robot)
   k.wrist4 = j[4].sin_alpha() > 0 ? 1 : -1;
   k.wrist5 = j[5].sin_alpha() > 0 ? 1 : -1;
   k.d6 = j[5].d_m;
+  k.coupled = std::any_of(j.begin(), j.end(), [](const Joint& joint) { return joint.coupling.has_value(); });
   for (int i = 0; i < kJoints; ++i) {
     k.sign[i] = j[i].theta_sign;
     k.offset[i] = j[i].theta_offset_rad;
     k.least[i] = j[i].min_rad;
     k.most[i] = j[i].max_rad;
+    const AngleRange range{j[i].min_rad, j[i].max_rad};
+    k.middle[i] = range.middle_rad();
+    k.half_range[i] = range.half_range_rad();
     k.follows[i] = j[i].coupling ? j[i].coupling->follows : -1;
     k.ratio[i] = j[i].coupling ? j[i].coupling->ratio : 0;
     k.coupled_least[i] = j[i].coupled_min_rad;
