@@ -299,6 +299,34 @@ def check_coupled_limits(maker, robot_path, k_path, folder):
     check("coupled range: warned", "20 degrees outside the joint limits" in done.stderr, done.stderr)
 
 
+def check_any_base(folder, k_path):
+    """The same arm in base frames that stand and turn anyhow: axis 1 along each axis of the base, and along none."""
+    generator = random.Random(4)
+    turns = [(0, 0, 0), (math.pi, 0, 0), (HALF, 0, 0), (-HALF, 0, 0), (0, HALF, 0), (0, -HALF, 0), (0, 0, HALF), (0.5, 0, 0)]
+    turns += [tuple(generator.uniform(-3, 3) for _ in range(3)) for _ in range(6)]
+    worst = 0
+    for n, turn in enumerate(turns):
+        place = (0, 0, 0) if n % 2 else tuple(generator.uniform(-2, 2) for _ in range(3))
+        joints = [joint("stand", "base_link", "foot", place, rpy=turn)] + arm(
+            [(j["xyz"], j["axis"], j["limits"]) for j in TX90[:6]], ((0.01, 0, 0.02), (0.3, 0, 0)), base="foot")
+        maker = Maker(f"TX90 turned by {turn}", joints)
+        urdf, robot_path = folder / "any.urdf", folder / "any.json"
+        urdf.write_text(maker.urdf())
+        run(SOURCE / "scripts/import-urdf", "--base", "base_link", urdf, "-o", robot_path)
+        robot = json.loads(robot_path.read_text())
+        flange = [row + [t] for row, t in zip(robot["flange"]["rotation"], robot["flange"]["translation_mm"])] + [[0, 0, 0, 1]]
+        for pose in random_poses(maker, 5, 5):
+            expected, frame = maker.frames(pose)["tool0"], product(dh_frames(robot, pose)[5], flange)
+            worst = max(worst, apart([1e3 * row[3] for row in expected[:3]], [row[3] for row in frame[:3]]))
+            off = max(abs(expected[i][j] - frame[i][j]) for i in range(3) for j in range(3))
+            check(f"{maker.name}: orientation", off < 1e-9, off)
+        middle = [1e3 * row[3] for row in maker.frames([0, 30, 60, 0, 30, 0])["tool0"][:3]]
+        run("best-pose", "--robot", robot_path, "--plane-origin=" + ",".join(map(repr, middle)), "--x=0:0:1", "--y=0:0:1",
+            "--tool-axis=" + ",".join(repr(row[2]) for row in maker.frames([0, 30, 60, 0, 30, 0])["tool0"][:3]), "--quiet", k_path)
+    check("any base: forward", worst < MILLIMETRES, f"{worst} mm")
+    print(f"any base frame: within {worst:.1e} mm")
+
+
 schema = Draft202012Validator(json.loads((SOURCE / "schemas/robot.schema.json").read_text()))
 with tempfile.TemporaryDirectory() as name:
     folder = pathlib.Path(name)
@@ -319,5 +347,6 @@ with tempfile.TemporaryDirectory() as name:
             check_bodies(maker, robot)
         if maker.name == "FANUC R-2000iC/165F":
             check_coupled_limits(maker, robot_path, k_path, folder)
+    check_any_base(folder, k_path)
 print(f"{passed} passed, {failed} failed")
 raise SystemExit(failed > 0 or passed == 0)
