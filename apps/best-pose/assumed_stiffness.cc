@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "base/range.h"
 #include "cli/exit_status.h"
 
@@ -28,17 +29,21 @@ void assume(const AssumedStiffness& assumed, const robot::Robot& robot, const do
 
 [[noreturn]] void fail_for_missing(const robot::JointStiffness& joints, const robot::Robot& robot,
                                    const document::Source& source) {
-  std::string missing, option;
+  std::string missing, option, bounds;
   std::size_t first = robot::kJoints;
   for (std::size_t j = 0; j < robot::kJoints; ++j) {
     if (joints.stiffness[j]) continue;
     first = std::min(first, j);
     missing += (missing.empty() ? "" : ", ") + robot.joints[j].name;
     option += " --assume " + robot.joints[j].name + "=K";
+    if (!joints.least[j]) continue;
+    bounds +=
+        (bounds.empty() ? "" : ", ") + robot.joints[j].name + " above " + number_text(*joints.least[j], 3);
   }
   std::string text = source.name + ": /stiffness_n_m_per_rad/" + std::to_string(first) +
                      ": null: " + missing +
                      " not identified: expected a stiffness for every joint; give one for it with" + option;
+  if (!bounds.empty()) text += " (by its 95 % interval " + bounds + " N m/rad)";
   if (missing == robot.joints.back().name && robot::tool_alignment(robot).point_on_axis) {
     text += " (any K: the tool point lies on this joint's axis, so it does not change the answer)";
   }
@@ -56,16 +61,22 @@ AssumedStiffness parse_assumed(const std::string& text) {
   return {text.substr(0, equals), *value};
 }
 
-robot::JointAngles joint_compliances(robot::JointStiffness joints,
-                                     const std::vector<AssumedStiffness>& assumed, const robot::Robot& robot,
-                                     const document::Source& source) {
+robot::Elasticity complete_elasticity(robot::JointStiffness joints,
+                                      const std::vector<AssumedStiffness>& assumed, const robot::Robot& robot,
+                                      const document::Source& source) {
   for (const AssumedStiffness& one : assumed) assume(one, robot, source, joints);
   robot::JointAngles compliance;
   for (int j = 0; j < robot::kJoints; ++j) {
     if (!joints.stiffness[j]) fail_for_missing(joints, robot, source);
     compliance[j] = 1 / *joints.stiffness[j];
   }
-  return compliance;
+  robot::Elasticity elasticity = robot::joints_only(compliance);
+  const auto others = static_cast<Eigen::Index>(joints.others.size());
+  elasticity.springs.insert(elasticity.springs.end(), joints.others.begin(), joints.others.end());
+  elasticity.compliance.conservativeResize(robot::kJoints + others);
+  for (Eigen::Index i = 0; i < others; ++i)
+    elasticity.compliance[robot::kJoints + i] = joints.other_compliance[i].value_or(0);
+  return elasticity;
 }
 
 }  // namespace stablecut

@@ -17,11 +17,12 @@ using AssumedStiffness = std::pair<std::string, double>;
 /// Reads JOINT=K. Throws WrongUsage.
 AssumedStiffness parse_assumed(const std::string& text);
 
-/// The compliances of all joints, rad/(N m): of the document's stiffness (`source` is where it came from), or
-/// the assumed one of a joint without. Throws WrongUsage where an assumption names no joint or one that has a
-/// stiffness, and NoAnswer where a joint is left without.
-robot::JointAngles joint_compliances(robot::JointStiffness joints,
-                                     const std::vector<AssumedStiffness>& assumed, const robot::Robot& robot,
-                                     const document::Source& source);
+/// What yields: the joints by the document's stiffness (`source` is where it came from), or the assumed one
+/// of a joint without, and the document's other springs, rigid where it has no compliance for one. Throws
+/// WrongUsage where an assumption names no joint or one that has a stiffness, and NoAnswer where a joint is
+/// left without.
+robot::Elasticity complete_elasticity(robot::JointStiffness joints,
+                                      const std::vector<AssumedStiffness>& assumed, const robot::Robot& robot,
+                                      const document::Source& source);
 
 }  // namespace stablecut

@@ -20,6 +20,14 @@ stiffness_with '.covariance_compliance = [range(6) | [range(6)]]' '/covariance_c
 stiffness_with '.joints = ["A1", "A2", "A3", "A4", "joint_5", "A6"]' '/joints/4: "joint_5": expected "A5", as in the robot document'
 stiffness_with '.joints = ["A1", "A2"]' '/joints: a list of 2: expected 6 names'
 stiffness_with '.format = "stablecut/cut/1"' '/format: "stablecut/cut/1": expected "stablecut/joint-stiffness/1"'
+stiffness_with '.model = "stiff"' '/model: "stiff": expected "joints" or "base" or "three-axis"'
+stiffness_with '.model = "base"' '/springs: missing'
+stiffness_with '.model = "joints" | .springs = [{name: "base.x", compliance_m_per_n: 0}]' '/springs/0/name: "base.x": expected no such spring in the model joints'
+stiffness_with '.springs = [{name: "A2.z", compliance_rad_per_n_m: 0}]' '/springs/0/name: "A2.z": expected base.x'
+stiffness_with '.springs = [{name: "base.x", compliance_m_per_n: -1}]' '/springs/0/compliance_m_per_n: -1: expected a compliance not below 0'
+stiffness_with '.springs = [{name: "base.x", compliance_m_per_n: 1}] | .spring_covariance = {springs: ["A1.z", "base.x"], matrix: [[1, 2], [2, 1]]}' '/spring_covariance/matrix: a list of 2: expected a covariance matrix'
+stiffness_with '.discrepancy = {relative: 0.1}' '/discrepancy/absolute_um: missing'
+stiffness_with '.discrepancy = {relative: -0.1, absolute_um: 1}' '/discrepancy/relative: -0.1: expected a number not below 0'
 refused 65 '^best-pose: <stdin>: empty input' "${search[@]}" </dev/null
 
 jq '.joints[4].a_mm = 50' "$robot" >wrist.json

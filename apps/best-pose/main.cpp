@@ -98,14 +98,16 @@ class BestPose : public cli::Tool {
     const document::Input input = read_main_input(cli::InputForm::kJson);
     const robot::JointStiffness joints =
         document::joint_stiffness_from_json(input.document, input.source, robot);
-    const robot::JointAngles compliance = joint_compliances(joints, assumed_, robot, input.source);
-    document.covariance = joints.compliance_covariance;
-    if (evaluate) return score_poses(robot, compliance, document);
+    const robot::Elasticity elasticity = complete_elasticity(joints, assumed_, robot, input.source);
+    document.errors = joints.errors;
+    if (const std::string text = rigid_springs_text(joints, robot); !text.empty())
+      warn(input.source.name + ": " + text);
+    if (evaluate) return score_poses(robot, elasticity, document);
     if (const auto bad = robot::unsupported_geometry(robot)) {
       throw unsupported_robot(*bad, robot, robot_input.source);
     }
     try {
-      search(robot, compliance, document);
+      search(robot, elasticity, document);
     } catch (const robot::NoPose& none) {
       throw NoAnswer(no_pose_text(none.obstacle(), robot));
     }
@@ -127,9 +129,9 @@ class BestPose : public cli::Tool {
     return task;
   }
 
-  void search(const robot::Robot& robot, const robot::JointAngles& compliance,
+  void search(const robot::Robot& robot, const robot::Elasticity& elasticity,
               document::PoseDocument& document) {
-    const robot::PoseTask task = search_task(where_, document.plane.plane, robot, compliance, document.task);
+    const robot::PoseTask task = search_task(where_, document.plane.plane, robot, elasticity, document.task);
     std::optional<robot::PlaneScan> scan;
     if (!map_path_.empty()) {
       cli::ProgressBar bar("best-pose: map", !quiet());
@@ -147,7 +149,7 @@ class BestPose : public cli::Tool {
     const robot::FoundPose& best = document.search.best;
     const auto report = [&](const robot::FoundPose& found) {
       document.reports.push_back(
-          robot::report_pose(robot, found.angles, document.task, compliance, document.covariance));
+          robot::report_pose(robot, found.angles, document.task, elasticity, document.errors));
     };
     report(best);
     for (const robot::FoundPose& found : document.search.alternatives) report(found);
@@ -158,7 +160,7 @@ class BestPose : public cli::Tool {
                    document::pose_map_to_json(robot::pose_map(robot, *scan), task, document.plane));
   }
 
-  void score_poses(const robot::Robot& robot, const robot::JointAngles& compliance,
+  void score_poses(const robot::Robot& robot, const robot::Elasticity& elasticity,
                    document::PoseDocument& document) {
     const document::Input input = read_input(evaluate_path_, cli::InputForm::kJson);
     const document::PoseListDocument list = document::pose_list_from_json(input.document, input.source);
@@ -166,7 +168,7 @@ class BestPose : public cli::Tool {
     for (const robot::JointAngles& angles : list.poses) {
       const std::string place = input.source.name + ": /poses/" + std::to_string(document.evaluated.size());
       document.evaluated.push_back(
-          robot::report_pose(robot, angles, document.task, compliance, document.covariance));
+          robot::report_pose(robot, angles, document.task, elasticity, document.errors));
       const robot::PoseReport& report = document.evaluated.back();
       if (std::isnan(report.score)) {
         warn(place + ": a singular pose: the arm cannot yield in a direction that the index " +

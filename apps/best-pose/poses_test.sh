@@ -88,6 +88,44 @@ check_jq "deviations are the slope times the deviation" spread.json '[.evaluated
   all((.[0].score_std / ((.[0].score - .[1].score) * 100) - 1 | fabs) < 0.01)' --slurpfile shifted shifted.json
 check_jq "probabilities" spread.json '[.evaluated[] | select(.rank > 1) | .probability_better] | length == 5 and all(. >= 0 and . < 0.5)'
 
+# A base and bearings that yield: best-pose uses what the document holds.
+jq '.model = "base" | .springs = [{name: "base.x", compliance_m_per_n: 1e-7, std_m_per_n: 1e-8}, {name: "base.y", compliance_m_per_n: 5e-8}]' k2d.json >base.json
+best-pose --robot "$robot" --quiet --evaluate poses.json --force=100,0,0 --index deflection k2d.json >stiff-base.json
+best-pose --robot "$robot" --quiet --evaluate poses.json --force=100,0,0 --index deflection base.json >soft-base.json
+check_jq "100 N along x move the base by 10 um along x" soft-base.json '[.evaluated, $stiff[0].evaluated] | transpose |
+  length == 6 and all([.[0].displacement_um, .[1].displacement_um] | transpose | map(.[0] - .[1]) |
+    ((.[0] - 10 | fabs) < 1e-9 and (.[1] | fabs) < 1e-9 and (.[2] | fabs) < 1e-9))' --slurpfile stiff stiff-base.json
+check_jq "and its deviation is 1 um of that, turned into the deflection" soft-base.json 'all(.evaluated[];
+  (.deflection_std_um - (.displacement_um[0] / .deflection_um | fabs)) | fabs < 1e-6)'
+best-pose --robot "$robot" --height 1600 --index weakest base.json 2>.err >base-best.json
+check_jq "a base that is not alike is not free to turn" base-best.json '([.families[].kind] | index("base-turn")) == null and .redundancy_matters == false'
+jq '.springs[1].compliance_m_per_n = 1e-7' base.json >alike.json
+best-pose --robot "$robot" --height 1600 --index weakest --map map.json alike.json 2>.err >base-best.json
+check_jq "one that is alike is" base-best.json '([.families[].kind] | index("base-turn")) != null'
+check_jq "the map is of the same springs" base-best.json '.best.score >= ([$map[0].score[][] | select(.)] | max)' --slurpfile map map.json
+jq '.model = "three-axis" | .springs = [{name: "A6.x", compliance_rad_per_n_m: 2e-6}, {name: "A6.y", compliance_rad_per_n_m: null}]' k2d.json >bearing.json
+best-pose --robot "$robot" --height 1600 --index weakest bearing.json 2>.err >bearing-best.json
+check_jq "a bearing of joint 6 that yields about x alone: the turn matters" bearing-best.json '.redundancy_matters == true and ([.families[].kind] | index("tool-turn")) == null and
+  .best.score > 1.0001 * ([.redundancy_sweep.score[] | select(.)] | min)'
+check "what has no compliance is said to be rigid" grep -q '^best-pose: warning: bearing.json: /springs: A6.y: not identified: taken as rigid$' .err
+check "and nothing else" test "$(wc -l <.err)" -eq 1
+
+# A discrepancy covers what a new pose shows, also without a covariance.
+jq '.discrepancy = {relative: 0.1, absolute_um: 20}' k2d.json >off.json
+best-pose --robot "$robot" --quiet --evaluate poses.json --force 0,0,-588.6 --index deflection off.json >off-scores.json
+check_jq "a tenth and 20 um" off-scores.json 'all(.evaluated[]; (.deflection_std_um - ((0.1 * .deflection_um | . * .) + 400 | sqrt)) | fabs < 1e-9) and
+  all(.evaluated[]; (.score_std - .deflection_std_um) | fabs < 1e-9) and all(.evaluated[] | select(.rank > 1); .probability_better > 0 and .probability_better < 0.5)'
+jq '.discrepancy.force_n = 500' off.json >off-load.json
+best-pose --robot "$robot" --quiet --height 1600 --index axial off-load.json >off-best.json
+check_jq "of a stiffness: a tenth, and 20 um of what 500 N give" off-best.json '(.best.score_std / .best.score - (0.01 + (20e-6 * .best.score / 500 | . * .) | sqrt)) | fabs < 1e-9'
+jq '.std_n_m_per_rad = [1e5, 1e5, 1e5, 1e5, 1e5, 1e5]' off.json >off-std.json
+best-pose --robot "$robot" --quiet --evaluate poses.json --force 0,0,-588.6 --index deflection off-std.json >both.json
+check_jq "beside the covariance" both.json '[.evaluated, $off[0].evaluated] | transpose | all(.[0].score_std > .[1].score_std)' --slurpfile off off-scores.json
+
+# A joint with a lower bound only.
+jq '.stiffness_n_m_per_rad[3] = null | .interval_95_n_m_per_rad = [null, null, null, [1.23e6, null], null, null]' k2d.json >bound.json
+refused 1 '/stiffness_n_m_per_rad/3: null: A4 not identified: .*--assume A4=K \(by its 95 % interval A4 above 1.23e\+0?6 N m/rad\)' best-pose --robot "$robot" --height 1600 bound.json
+
 # No pose.
 refused 1 '^best-pose: no reachable pose: nothing of the plane is within' best-pose --robot "$robot" --height 9000 k2d.json
 refused 1 '^best-pose: no reachable pose: at best joint A[1-6] would be .* outside its limits' best-pose --robot "$robot" --height 1600 --x 0:300:4 --y 0:0:1 --tool-axis 0,0,1 k2d.json

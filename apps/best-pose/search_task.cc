@@ -57,13 +57,13 @@ document::PlaneDocument search_plane(const SearchOptions& options) {
 }
 
 robot::PoseTask search_task(const SearchOptions& options, const robot::Plane& plane,
-                            const robot::Robot& robot, const robot::JointAngles& compliance,
+                            const robot::Robot& robot, const robot::Elasticity& elasticity,
                             const robot::StiffnessTask& stiffness) {
   robot::PoseTask task;
   task.plane = plane;
   task.tool_axis = direction(options.tool_axis, task.tool_axis, "--tool-axis");
   task.stiffness = stiffness;
-  task.joint_compliance = compliance;
+  task.elasticity = elasticity;
   task.limit_margin_rad = radians_from_degrees(options.limit_margin_deg.value_or(kDefaultLimitMarginDeg));
   task.singularity_margin = options.singularity_margin.value_or(kDefaultSingularityMargin);
   const auto reach = robot::plane_reach(robot, task.plane, task.tool_axis);

@@ -28,7 +28,7 @@ document::PlaneDocument search_plane(const SearchOptions& options);
 
 /// The task of a search on that plane. Throws WrongUsage, and NoPose where the plane is out of reach.
 robot::PoseTask search_task(const SearchOptions& options, const robot::Plane& plane,
-                            const robot::Robot& robot, const robot::JointAngles& compliance,
+                            const robot::Robot& robot, const robot::Elasticity& elasticity,
                             const robot::StiffnessTask& stiffness);
 
 }  // namespace stablecut

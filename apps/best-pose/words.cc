@@ -2,6 +2,7 @@
 
 #include "base/number_text.h"
 #include "base/units.h"
+#include "document/kinds/joint_stiffness_json.h"
 
 namespace stablecut {
 namespace {
@@ -86,6 +87,15 @@ document::DataError unsupported_robot(const robot::UnsupportedGeometry& bad, con
                              number_text(value),
                              std::string("expected ") + expected_text(bad.rule) +
                                  ": a search needs its inverse kinematics (--evaluate does not)");
+}
+
+std::string rigid_springs_text(const robot::JointStiffness& joints, const robot::Robot& robot) {
+  std::string names;
+  for (std::size_t i = 0; i < joints.others.size(); ++i) {
+    if (!joints.other_compliance[i])
+      names += (names.empty() ? "" : ", ") + document::spring_name(joints.others[i], robot);
+  }
+  return names.empty() ? "" : "/springs: " + names + ": not identified: taken as rigid";
 }
 
 std::string idle_redundancy_text(const robot::Robot& robot, const robot::StiffnessIndex& index) {

@@ -6,6 +6,7 @@
 #include "document/text/data_error.h"
 #include "document/text/json_text.h"
 #include "robot/inverse.h"
+#include "robot/joint_stiffness.h"
 #include "robot/pose_report.h"
 #include "robot/pose_task.h"
 
@@ -23,6 +24,9 @@ std::string no_pose_text(const robot::Obstacle& obstacle, const robot::Robot& ro
 /// expected.
 document::DataError unsupported_robot(const robot::UnsupportedGeometry& bad, const robot::Robot& robot,
                                       const document::Source& source);
+
+/// Which springs have no compliance and count as rigid; empty where all have one.
+std::string rigid_springs_text(const robot::JointStiffness& joints, const robot::Robot& robot);
 
 /// A warning that the redundancy angle cannot change the index.
 std::string idle_redundancy_text(const robot::Robot& robot, const robot::StiffnessIndex& index);

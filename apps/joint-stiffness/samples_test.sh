@@ -84,6 +84,31 @@ jq '.samples[].force_n = [0, 0, 0]' loads.json >unloaded.json
 refused 1 '^joint-stiffness: unloaded.json: no joint can be identified: A1 is not seen' joint-stiffness --loss huber --robot "$robot" unloaded.json
 refused 1 '^joint-stiffness: unloaded.json: no joint can be identified: A1 is not seen' joint-stiffness --robot "$robot" unloaded.json
 
+# Models: what the document of best-pose holds is what identification finds again.
+jq '.model = "base" | .springs = [{name: "base.x", compliance_m_per_n: 1e-7}, {name: "base.y", compliance_m_per_n: 5e-8}, {name: "base.z", compliance_m_per_n: 3e-8}]' truth.json >soft.json
+mv truth.json hard.json; cp soft.json truth.json
+samples offset.json "${three[@]}" >soft-loads.json
+mv hard.json truth.json
+joint-stiffness --robot offset.json --model base soft-loads.json -o base.json 2>.err
+check_jq "the base too" base.json '.model == "base" and (.identifiable | all) and
+  ([.springs, $soft[0].springs] | transpose | length == 3 and all(.[0].name == .[1].name and .[0].identifiable and (.[0].compliance_m_per_n / .[1].compliance_m_per_n - 1 | fabs) < 1e-9))' --slurpfile soft soft.json
+check_jq "all models listed" base.json '[.models[].model] == ["joints", "base", "three-axis"] and .models[1].block_rms_um < 1e-6 and .models[0].block_rms_um > 1'
+check_jq "a covariance of all springs" base.json '.spring_covariance | (.springs | length) == 9 and .springs[6:] == ["base.x", "base.y", "base.z"] and (.matrix | length == 9 and all(length == 9))'
+joint-stiffness --robot offset.json --model best soft-loads.json -o best.json 2>.err
+check_jq "the data choose it" best.json '.model == "base"'
+joint-stiffness --robot offset.json soft-loads.json -o joints.json 2>.err
+check "joints alone: said that the base predicts better" grep -q 'the model base predicts poses of other blocks to .* um, joints alone to .* um: --model base uses it' .err
+check_jq "joints alone have no springs" joints.json '.model == "joints" and (has("springs") | not) and .discrepancy.absolute_um + .discrepancy.relative > 0'
+joint-stiffness --robot offset.json --model joints soft-loads.json -o chosen.json 2>.err
+check "not where joints were asked for" test "$(grep -c 'predicts poses' .err)" -eq 0
+best-pose --robot offset.json --quiet --evaluate poses.json --force 0,0,-600 base.json >scores.json
+best-pose --robot offset.json --quiet --evaluate poses.json --force 0,0,-600 soft.json >soft-scores.json
+check_jq "best-pose reads it" scores.json '[.evaluated, $soft[0].evaluated] | transpose | length > 3 and all((.[0].score / .[1].score - 1 | fabs) < 1e-6 and .[0].score_std >= 0)' --slurpfile soft soft-scores.json
+joint-stiffness --robot "$robot" --model three-axis --quiet "$data/kr360-loads.csv" -o three.json
+check_jq "an uncertain joint keeps its lower bound" three.json '[.stiffness_n_m_per_rad, .interval_95_n_m_per_rad, .reasons] | transpose |
+  any(.[0] == null and .[1] != null and .[1][0] > 0 and .[1][1] == null and (.[2] | test("interval")))'
+refused 64 '^joint-stiffness: --model: bearings: expected joints\|base\|three-axis\|best' joint-stiffness --robot "$robot" --model bearings loads.json
+
 # Plans.
 joint-stiffness --robot "$robot" --plan 6 --expected truth.json --quiet poses.json -o plan.json
 check_jq "a plan" plan.json '(.samples | length) == 6 and .rank == 5 and .std_n_m_per_rad[5] == null and .efficiency > 0.5 and
@@ -93,8 +118,8 @@ check_jq "a plan with its own loads" plan.json '([.samples[].force_n] | unique |
 refused 1 'too few measurements: 1 cannot tell the 5 joints apart' joint-stiffness --robot "$robot" --plan 1 --quiet poses.json
 joint-stiffness --robot "$robot" --plan 12 --load-point 150,50,210 --measuring-point 150,50,210 poses.json -o plan.json
 check_jq "a plan with points off the axis sees joint 6" plan.json '.rank == 6 and (.identifiable | all)'
-refused 64 '^joint-stiffness: --from, --loss: expected without --plan' joint-stiffness --robot "$robot" --plan 3 --loss huber poses.json
-refused 64 '^joint-stiffness: --load, --std-mm, --expected, --load-point, --measuring-point: expected with --plan only' joint-stiffness --robot "$robot" --std-mm 1 loads.json
+refused 64 '^joint-stiffness: --from, --loss, --model: expected without --plan' joint-stiffness --robot "$robot" --plan 3 --loss huber poses.json
+refused 64 '^joint-stiffness: --repeats, --load, --std-mm, --expected, --load-point, --measuring-point: expected with --plan only' joint-stiffness --robot "$robot" --std-mm 1 loads.json
 
 # Poses outside the limits: samples are used and said, poses of a plan left out. Names are kept.
 jq '.samples[3].joints_deg[1] = 25 | .samples[7].joints_deg[1] = 30' loads.json >outside.json

@@ -1,5 +1,7 @@
 #include "words.h"
 
+#include <algorithm>
+
 #include "base/number_text.h"
 #include "base/units.h"
 #include "document/kinds/joint_stiffness_json.h"
@@ -11,14 +13,14 @@ std::string nothing_identified_text(const robot::Identification& found, const ro
   for (int j = 0; j < robot::kJoints; ++j) {
     text += (j > 0 ? ", " : " ") + robot.joints[j].name;
     switch (found.verdict[j]) {
-      case robot::JointVerdict::kUnseen:
+      case robot::Verdict::kUnseen:
         text += " is not seen by the loads and measurements";
         break;
-      case robot::JointVerdict::kInseparable:
+      case robot::Verdict::kInseparable:
         text += " cannot be told from other joints";
         break;
-      case robot::JointVerdict::kUncertain:
-      case robot::JointVerdict::kIdentified:
+      case robot::Verdict::kUncertain:
+      case robot::Verdict::kIdentified:
         text += " is too uncertain to be told from a rigid joint";
         break;
     }
@@ -60,6 +62,22 @@ std::vector<std::string> identification_warnings(const robot::Identification& fo
                        (huber ? "" : ": an outlier? (--loss huber gives such samples less weight)"));
   }
   return warnings;
+}
+
+std::string richer_model_text(const robot::Identification& found) {
+  const auto trial = [&](robot::ElasticModel model) {
+    return std::find_if(found.models.trials.begin(), found.models.trials.end(),
+                        [&](const robot::ModelTrial& one) { return one.model == model; });
+  };
+  const auto joints = trial(robot::ElasticModel::kJointsOnly), best = trial(found.models.best);
+  if (best == joints || best == found.models.trials.end() || joints == found.models.trials.end() ||
+      !best->block_rms_m || !joints->block_rms_m) {
+    return "";
+  }
+  const std::string name = document::model_name(found.models.best);
+  return "the model " + name + " predicts poses of other blocks to " +
+         number_text(*best->block_rms_m * 1e6, 3) + " um, joints alone to " +
+         number_text(*joints->block_rms_m * 1e6, 3) + " um: --model " + name + " uses it";
 }
 
 std::string unit_warning(const document::LoadSamplesDocument& samples, const std::string& source) {

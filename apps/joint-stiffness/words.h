@@ -19,6 +19,10 @@ std::vector<std::string> identification_warnings(const robot::Identification& fo
                                                  const document::LoadSamplesDocument& samples,
                                                  const std::string& source, bool huber);
 
+/// By how much a richer model predicts blocks of neighbouring poses better than the one with joints alone;
+/// empty where none is chosen.
+std::string richer_model_text(const robot::Identification& found);
+
 /// A warning where no robot yields as much or as little as the samples say; empty where it may.
 std::string unit_warning(const document::LoadSamplesDocument& samples, const std::string& source);
 

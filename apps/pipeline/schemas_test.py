@@ -111,6 +111,12 @@ documents |= {
     "joint in one direction": run("rcsa-couple", "--identify", "-", bar, stdin=json.dumps({**tip, "h": tip["h"][:1]})),
     "joint at its bounds": run(*bounds, stdin=json.dumps(tip)),
 }
+for model in ("base", "three-axis"):
+    documents[f"stiffness, model {model}"] = run(
+        "joint-stiffness", *robot, "--model", model, str(source / "testdata/kr360-loads.csv"))
+documents["springs and discrepancy of the user"] = partial | {
+    "model": "three-axis", "discrepancy": {"relative": 0.1, "absolute_um": 20},
+    "springs": [{"name": "base.x", "compliance_m_per_n": 1e-8}, {"name": "A2.y", "compliance_rad_per_n_m": None}]}
 documents["stiffness where one load leaves joints unseen"] = run(
     "joint-stiffness", *robot, stdin=json.dumps(documents["load samples"]))
 required = {"frf": "h", "modal-table": "modes", "lobes": "limit", "robot": "tool", "load-samples": "samples",

@@ -266,6 +266,7 @@ STABLECUT_WIDE void solve_arms(const ArmConstants& robot, const ArmTarget& targe
   }
   for (int i = 0; i < 3; ++i) {
     out.axis6[i] = home.z6[i];
+    out.x6[i] = home.x6[i];
     out.wrist[i] = home.wrist[i];
   }
 }

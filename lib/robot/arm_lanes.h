@@ -47,6 +47,7 @@ struct ArmLanes {
   double axis2[3][kArms], point2[3][kArms], point3[3][kArms];
   double axis4[3][kArms], axis5[3][kArms];
   double axis6[3], wrist[3];
+  double x6[3];  ///< x of frame 6, unit vector
 };
 
 /// Policies where the target leaves a joint free: on axis 1, and with axes 4 and 6 in line,

@@ -15,6 +15,12 @@ Eigen::Matrix3d translational_compliance(const RobotPose& pose, const JointAngle
   return columns * joint_compliance.asDiagonal() * columns.transpose();
 }
 
+Eigen::Matrix3d translational_compliance(const RobotPose& pose, const Elasticity& elasticity) {
+  if (elasticity.springs.size() == kJoints)
+    return translational_compliance(pose, JointAngles(elasticity.compliance));
+  return compliance_at(pose, elasticity.springs, elasticity.compliance, pose.tool.translation());
+}
+
 Eigen::Vector3d principal_compliances(const Eigen::Matrix3d& compliance) {
   // The closed form [Smith1961] loses digits where two eigenvalues nearly meet: there by iteration.
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;

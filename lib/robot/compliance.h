@@ -3,13 +3,17 @@
 
 #include <Eigen/Core>
 
-#include "robot/kinematics.h"
+#include "robot/joint_stiffness.h"
 
 namespace stablecut::robot {
 
 /// C_tt = J_v diag(c) J_v^T, m/N, base frame [Salisbury1980]: the displacement of the tool point per force
 /// there, with rigid links and `joint_compliance` c in rad/(N m).
 Eigen::Matrix3d translational_compliance(const RobotPose& pose, const JointAngles& joint_compliance);
+
+/// The same of all springs: the sum of c_k v_k v_k^T, v_k the movement of the tool point per unit of spring
+/// k.
+Eigen::Matrix3d translational_compliance(const RobotPose& pose, const Elasticity& elasticity);
 
 /// Eigenvalues of C_tt, largest first, m/N: the principal stiffnesses are their inverses.
 Eigen::Vector3d principal_compliances(const Eigen::Matrix3d& compliance);

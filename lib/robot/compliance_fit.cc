@@ -27,7 +27,7 @@ std::vector<SampleRows> sample_rows(const std::vector<int>& sample) {
 
 void choose_columns(ComplianceFit& fit) {
   fit.seen = identifiability(fit.std.cwiseInverse().asDiagonal() * fit.equations.a,
-                             fit.std.cwiseInverse().asDiagonal() * fit.equations.largest);
+                             fit.std.cwiseInverse().asDiagonal() * fit.equations.largest, kJoints);
   const std::vector<Eigen::Index> columns(fit.seen.independent.begin(), fit.seen.independent.end());
   fit.a = fit.equations.a(Eigen::all, columns);
 }
@@ -36,8 +36,8 @@ void solve(ComplianceFit& fit) {
   if (fit.a.cols() == 0) return;
   // Of joints that cannot be told apart only a mixture is estimated, which may have any sign.
   std::vector<bool> not_negative;
-  for (const int joint : fit.seen.independent) {
-    not_negative.push_back(fit.seen.visibility[joint] == Visibility::kVisible);
+  for (const int spring : fit.seen.independent) {
+    not_negative.push_back(fit.seen.visibility[spring] == Visibility::kVisible);
   }
   const Eigen::VectorXd whitening = fit.whitening();
   fit.solution = bounded_least_squares(whitening.asDiagonal() * fit.a,

@@ -19,7 +19,7 @@ struct SampleRows {
   Eigen::Index first = 0, count = 0;
 };
 
-/// A fit to m equations in the compliances of n joints, those whose columns are independent.
+/// A fit to m equations in the compliances of n springs, those whose columns are independent.
 struct ComplianceFit {
   const ComplianceEquations& equations;
   std::vector<SampleRows> samples;
@@ -27,8 +27,8 @@ struct ComplianceFit {
   Eigen::VectorXd std;             ///< [m] of each row: as stated, else up to one common factor
   Eigen::VectorXd weight;          ///< [m] of the robust loss, 0..1, the same for all rows of a sample
   Identifiability seen;
-  Eigen::MatrixXd a;         ///< [m x n] columns of the independent joints, in the order of seen.independent
-  Eigen::VectorXd solution;  ///< [n] rad/(N m)
+  Eigen::MatrixXd a;         ///< [m x n] columns of the independent springs, in the order of seen.independent
+  Eigen::VectorXd solution;  ///< [n] rad/(N m), m/N for the base
   Eigen::VectorXd residual;  ///< [m] measured less explained, m or rad
 
   /// What a row is multiplied with in the weighted problem: sqrt(weight) / std.
@@ -40,7 +40,7 @@ struct ComplianceFit {
   double mean_influence_slope() const;
 };
 
-/// Weighted least squares with no compliance below 0 where a joint can be told from the others. Where the
+/// Weighted least squares with no compliance below 0 where a spring can be told from the others. Where the
 /// samples state no deviations, those of rotations against deflections settle with the residuals; with
 /// `huber` samples that lie far off count less. Both by repeated fits.
 ComplianceFit fit_compliances(const ComplianceEquations& equations, bool huber);

@@ -44,7 +44,7 @@ TEST_CASE("a joint apart from a mixture of two others keeps its own number") {
   a.col(0) << 1, 1, 0, 0;
   a.col(1) << 2, 2, 0, 0;
   a.col(2) << 1, 1, 1e-2, 0;
-  const Identifiability seen = identifiability(a, Eigen::MatrixXd::Ones(4, 6));
+  const Identifiability seen = identifiability(a, Eigen::MatrixXd::Ones(4, 6), 6);
   CHECK(seen.rank == 2);
   CHECK(seen.independent.size() == 2);
   CHECK(seen.visibility[0] == Visibility::kInseparable);
@@ -54,7 +54,7 @@ TEST_CASE("a joint apart from a mixture of two others keeps its own number") {
   // Each of three columns in one mixture with the others.
   a.col(2) << 0, 0, 1, 0;
   a.col(1) = a.col(0) + 0.01 * a.col(2);
-  const Identifiability mixed = identifiability(a, Eigen::MatrixXd::Ones(4, 6));
+  const Identifiability mixed = identifiability(a, Eigen::MatrixXd::Ones(4, 6), 6);
   CHECK(mixed.rank == 2);
   for (int j = 0; j < 3; ++j) CHECK(mixed.visibility[j] == Visibility::kInseparable);
 }

@@ -44,6 +44,7 @@ RobotPose robot_pose(const Robot& robot, const JointAngles& angles) {
     origin += joint.d_m * z;
     pose.axis.col(j) = joint.theta_sign * z;
     pose.point.col(j) = origin;
+    pose.frame_x.col(j) = rotation.col(0);
   }
   Eigen::Isometry3d frame6 = Eigen::Isometry3d::Identity();
   frame6.linear() = rotation;

@@ -11,7 +11,8 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 struct RobotPose {
   Eigen::Matrix<double, 3, kJoints>
       axis;  ///< unit vectors, positive in the sense of growing turns (Robot::turn_rad)
-  Eigen::Matrix<double, 3, kJoints> point;  ///< a point on each axis: the origin of its frame
+  Eigen::Matrix<double, 3, kJoints> point;    ///< a point on each axis: the origin of its frame
+  Eigen::Matrix<double, 3, kJoints> frame_x;  ///< unit vectors, the x axes of the joints' frames
   Eigen::Isometry3d flange;
   Eigen::Isometry3d tool;
 };

@@ -6,14 +6,22 @@
 
 namespace stablecut::robot {
 
+/// The upper triangular R [n x n] of A = Q R for a matrix [m x n], m >= n or not: |A x| = |R x| for every x.
+/// Columns are scaled to length 1 meanwhile.
+Eigen::MatrixXd triangular_factor(const Eigen::MatrixXd& a);
+
 /// (A^T A)^-1 for a matrix [m x n] of full column rank: the covariance of the least-squares solution where
 /// every row has deviation 1. By QR of the columns scaled to length 1.
 Eigen::MatrixXd inverse_normal_matrix(const Eigen::MatrixXd& a);
 
-/// The x [n] that minimizes |A x - b|, with x_i not below 0 where not_negative[i]; at most six unknowns.
-/// Exact: every choice of unknowns held at 0 is tried, and the best solution that keeps the signs is taken
-/// [Lawson1995, chapter 23].
+/// The x [n] that minimizes |A x - b|, with x_i not below 0 where not_negative[i]. A has full column rank.
+/// The active set method of [Lawson1995, chapter 23]: exact up to rounding.
 Eigen::VectorXd bounded_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
                                       const std::vector<bool>& not_negative);
+
+/// The same from the normal equations A^T A x = A^T b of columns that all have length 1 or 0. 1e-10 is added
+/// to the diagonal, so that what the equations leave open stays small. Half the digits of the above.
+Eigen::VectorXd bounded_normal_solution(Eigen::MatrixXd matrix, const Eigen::VectorXd& right,
+                                        const std::vector<bool>& not_negative);
 
 }  // namespace stablecut::robot

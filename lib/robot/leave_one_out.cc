@@ -55,32 +55,6 @@ class LeaveOneOut {
 
 }  // namespace
 
-CrossValidation cross_validation(const ComplianceFit& fit) {
-  CrossValidation result;
-  const LeaveOneOut others(fit);
-  if (others.unknowns() == 0) return result;
-  double sum = 0;
-  int count = 0;
-  for (const SampleRows& sample : fit.samples) {
-    const auto left = others.without(sample);
-    if (left.alone) {
-      ++result.samples_not_predicted;
-      continue;
-    }
-    const auto rows = Eigen::seqN(sample.first, sample.count);
-    const Eigen::VectorXd whitening = others.whitening()(rows);
-    const Eigen::VectorXd error =
-        left.svd.solve(Eigen::VectorXd(whitening.cwiseProduct(fit.residual(rows)))).cwiseQuotient(whitening);
-    for (Eigen::Index i = 0; i < sample.count; ++i) {
-      if (fit.equations.rotation[sample.first + i]) continue;
-      sum += error[i] * error[i];
-      ++count;
-    }
-  }
-  if (count > 0) result.rms_m = std::sqrt(sum / count);
-  return result;
-}
-
 std::vector<Outlier> outliers(const ComplianceFit& fit, const OutlierOptions& options) {
   std::vector<Outlier> found;
   const LeaveOneOut others(fit);

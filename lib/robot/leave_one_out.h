@@ -1,8 +1,6 @@
-// What the other samples say of each sample: cross-validation and outliers, in closed form. README.md,
-// "Each sample against the others".
+// Samples that are far from what the other samples predict. README.md, "Each sample against the others".
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "robot/compliance_fit.h"
@@ -17,15 +15,6 @@ struct Outlier {
                           ///< of its rows, or its worst row
   double weight = 1;      ///< what the robust loss left of it
 };
-
-struct CrossValidation {
-  std::optional<double> rms_m;    ///< of deflections less their prediction from the other samples
-  int samples_not_predicted = 0;  ///< alone in what they say of some compliance
-};
-
-/// Every sample predicted from all others, with the robust weights and the joints held at 0 as all samples
-/// have them.
-CrossValidation cross_validation(const ComplianceFit& fit);
 
 /// How outliers are judged.
 struct OutlierOptions {

@@ -9,65 +9,72 @@ constexpr double kLeastPlausible = 1e-6, kMostPlausible = 0.02;  // m, of the la
 
 }  // namespace
 
-ComplianceEquations compliance_equations(const Robot& robot, const std::vector<LoadSample>& samples,
+ComplianceEquations compliance_equations(const Robot& robot, const std::vector<Spring>& springs,
+                                         const std::vector<LoadSample>& samples,
                                          const std::array<bool, 3>& components) {
-  struct Row {
-    Eigen::Matrix<double, 1, kJoints> a, largest;
-    double b, std;
-  };
   ComplianceEquations equations;
-  std::vector<Row> rows;
+  equations.springs = springs;
+  const Eigen::Index n = springs.size();
+  Eigen::Index count = 0;
   bool with_std = true;
+  for (const LoadSample& sample : samples) {
+    count += std::count(components.begin(), components.end(), true) + (sample.rotation_rad ? 3 : 0);
+    with_std = with_std && sample.deflection_std_m && (!sample.rotation_rad || sample.rotation_std_rad);
+  }
+  equations.a.resize(count, n);
+  equations.largest.resize(count, n);
+  equations.b.resize(count);
+  if (with_std) equations.std.resize(count);
+  Eigen::Index row = 0;
   for (std::size_t s = 0; s < samples.size(); ++s) {
     const LoadSample& sample = samples[s];
     const RobotPose pose = robot_pose(robot, sample.angles);
     const Eigen::Vector3d force_point = pose.flange * sample.force_point;
     const Eigen::Vector3d measuring_point = pose.flange * sample.measuring_point;
-    const auto at_force = translational_jacobian(pose, force_point);
-    const auto at_measurement = translational_jacobian(pose, measuring_point);
-    const JointAngles torque =
-        at_force.transpose() * sample.force_n + pose.axis.transpose() * sample.moment_n_m;
-    JointAngles largest_torque, lever;
-    for (int j = 0; j < kJoints; ++j) {
-      largest_torque[j] =
-          (force_point - pose.point.col(j)).norm() * sample.force_n.norm() + sample.moment_n_m.norm();
-      lever[j] = (measuring_point - pose.point.col(j)).norm();
+    Eigen::Matrix3Xd moved(3, n), turned(3, n);  // by the load, per unit of compliance
+    Eigen::RowVectorXd largest_load(n), lever(n), turns(n);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const SpringAxis axis = spring_axis(pose, springs[k]);
+      const double load = axis.load(sample.force_n, force_point, sample.moment_n_m);
+      moved.col(k) = load * axis.displacement(measuring_point);
+      turned.col(k) = load * axis.rotation();
+      turns[k] = axis.turns ? 1 : 0;
+      largest_load[k] = sample.force_n.norm();
+      lever[k] = 1;
+      if (!axis.turns) continue;
+      largest_load[k] = (force_point - axis.point).norm() * sample.force_n.norm() + sample.moment_n_m.norm();
+      lever[k] = (measuring_point - axis.point).norm();
     }
-    const auto add = [&](const auto& direction, const auto& largest, double measured,
+    const auto add = [&](const auto& per_compliance, const Eigen::RowVectorXd& arm, double measured,
                          const std::optional<Eigen::Vector3d>& std, int component, bool rotation) {
-      Row row;
-      row.a = direction.cwiseProduct(torque.transpose());
-      row.largest = largest.cwiseProduct(largest_torque).transpose();
-      row.b = measured;
-      row.std = std ? (*std)[component] : 0;
-      with_std = with_std && std;
-      rows.push_back(row);
+      equations.a.row(row) = per_compliance;
+      equations.largest.row(row) = arm.cwiseProduct(largest_load);
+      equations.b[row] = measured;
+      if (with_std) equations.std[row] = (*std)[component];
       equations.sample.push_back(static_cast<int>(s));
       equations.rotation.push_back(rotation);
+      ++row;
     };
     for (int d = 0; d < 3; ++d) {
-      if (components[d]) {
-        add(at_measurement.row(d), lever, sample.deflection_m[d], sample.deflection_std_m, d, false);
-      }
+      if (components[d]) add(moved.row(d), lever, sample.deflection_m[d], sample.deflection_std_m, d, false);
     }
-    for (int d = 0; d < 3 && sample.rotation_rad; ++d) {
-      add(pose.axis.row(d), JointAngles(JointAngles::Ones()), (*sample.rotation_rad)[d],
-          sample.rotation_std_rad, d, true);
-    }
-  }
-  const Eigen::Index count = rows.size();
-  equations.a.resize(count, kJoints);
-  equations.largest.resize(count, kJoints);
-  equations.b.resize(count);
-  if (with_std) equations.std.resize(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Row& row = rows[i];
-    equations.a.row(i) = row.a;
-    equations.largest.row(i) = row.largest;
-    equations.b[i] = row.b;
-    if (with_std) equations.std[i] = row.std;
+    for (int d = 0; d < 3 && sample.rotation_rad; ++d)
+      add(turned.row(d), turns, (*sample.rotation_rad)[d], sample.rotation_std_rad, d, true);
   }
   return equations;
+}
+
+ComplianceEquations with_springs(const ComplianceEquations& equations, const std::vector<Spring>& springs) {
+  std::vector<Eigen::Index> columns;
+  for (const Spring& spring : springs) {
+    const auto found = std::find(equations.springs.begin(), equations.springs.end(), spring);
+    columns.push_back(found - equations.springs.begin());
+  }
+  ComplianceEquations part = equations;
+  part.springs = springs;
+  part.a = equations.a(Eigen::all, columns);
+  part.largest = equations.largest(Eigen::all, columns);
+  return part;
 }
 
 double largest_deflection(const std::vector<LoadSample>& samples) {

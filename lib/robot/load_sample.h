@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "robot/kinematics.h"
+#include "robot/springs.h"
 
 namespace stablecut::robot {
 
@@ -22,23 +22,28 @@ struct LoadSample {
   std::optional<Eigen::Vector3d> deflection_std_m, rotation_std_rad;
 };
 
-/// The measured components and their samples: A c = b with the joint compliances c (rad/(N m)). Column j of A
-/// is J_j (J_j . load), the movement of what is measured per unit of compliance of joint j [Yi2025, eqs. 10
-/// and 11].
+/// The measured components and their samples: A c = b with the springs' compliances c. Column k of A is the
+/// movement of what is measured per unit of compliance of spring k: its displacement or rotation per unit
+/// times its load [Yi2025, eqs. 10 and 11].
 struct ComplianceEquations {
-  Eigen::MatrixXd a;           ///< [rows x 6], m N m or rad N m
-  Eigen::VectorXd b;           ///< [rows], m or rad
-  Eigen::VectorXd std;         ///< [rows], m or rad; empty when the samples state none
-  std::vector<int> sample;     ///< [rows] index of the row's sample; rows of a sample are neighbours
-  std::vector<bool> rotation;  ///< [rows] the row is a rotation, else a deflection
-  Eigen::MatrixXd largest;     ///< [rows x 6] size that a would have with the load and the measured direction
-                               ///< square to the joint's lever
+  std::vector<Spring> springs;  ///< of the columns, the six joints first
+  Eigen::MatrixXd a;            ///< [rows x springs], m N m or rad N m; m N or rad N for the base
+  Eigen::VectorXd b;            ///< [rows], m or rad
+  Eigen::VectorXd std;          ///< [rows], m or rad; empty when the samples state none
+  std::vector<int> sample;      ///< [rows] index of the row's sample; rows of a sample are neighbours
+  std::vector<bool> rotation;   ///< [rows] the row is a rotation, else a deflection
+  Eigen::MatrixXd largest;      ///< [rows x springs] size that a would have with the load and the measured
+                                ///< direction square to the spring's lever
 };
 
 /// A row for each of the deflection's `components` (x, y, z) and for all three of a measured rotation. Either
 /// all samples state standard deviations or none.
-ComplianceEquations compliance_equations(const Robot& robot, const std::vector<LoadSample>& samples,
+ComplianceEquations compliance_equations(const Robot& robot, const std::vector<Spring>& springs,
+                                         const std::vector<LoadSample>& samples,
                                          const std::array<bool, 3>& components);
+
+/// The same with some of the springs only, which are among those of `equations` in the same order.
+ComplianceEquations with_springs(const ComplianceEquations& equations, const std::vector<Spring>& springs);
 
 /// Length of the largest measured deflection, m.
 double largest_deflection(const std::vector<LoadSample>& samples);

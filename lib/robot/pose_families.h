@@ -22,9 +22,11 @@ struct PoseFamily {
 
 /// Which joints may be turned without changing the score.
 struct Symmetry {
-  bool base_turn = false;  ///< joint 1: tool axis and plane's normal along axis 1, and a load that turns with
-                           ///< the arm, lies along axis 1 or does not count
-  bool tool_turn = false;  ///< joint 6: coaxial tool, and a task that does not feel its turn
+  bool base_turn =
+      false;  ///< joint 1: tool axis and plane's normal along axis 1, and a load that turns with
+              ///< the arm, lies along axis 1 or does not count; and a base that is alike about it
+  bool tool_turn = false;  ///< joint 6: coaxial tool, a bearing alike about axis 6, and a task that does not
+                           ///< feel its turn
 };
 Symmetry symmetry_of(const PoseScanner& scanner);
 

@@ -9,33 +9,61 @@
 namespace stablecut::robot {
 namespace {
 
-constexpr double kGradientStep = 1e-5;  // of a compliance
+constexpr double kGradientStep = 1e-5;  // of C_tt
 constexpr double kRigid = 1e-12;        // of the largest principal compliance: below, rounding
 
-// d value(C) / d c_j by central differences; C is linear in the compliances.
+// d value(C) / d c_k by central differences; C is linear in the compliances. A spring that does not move the
+// tool point has none.
 template <typename Value>
-JointAngles gradient(const RobotPose& pose, const JointAngles& joint_compliance, const Value& value) {
-  const auto columns = translational_jacobian(pose, pose.tool.translation());
-  const Eigen::Matrix3d compliance = translational_compliance(pose, joint_compliance);
-  JointAngles result;
-  for (int j = 0; j < kJoints; ++j) {
-    const double step = kGradientStep * joint_compliance[j];
-    const Eigen::Matrix3d change = step * columns.col(j) * columns.col(j).transpose();
-    result[j] = (value(compliance + change) - value(compliance - change)) / (2 * step);
+Eigen::VectorXd gradient(const RobotPose& pose, const std::vector<Spring>& springs,
+                         const Eigen::Matrix3d& compliance, const Value& value) {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(springs.size()));
+  for (std::size_t k = 0; k < springs.size(); ++k) {
+    const Eigen::Vector3d v = spring_axis(pose, springs[k]).displacement(pose.tool.translation());
+    const double size = v.squaredNorm();
+    if (!(size > 0)) continue;
+    const double step = kGradientStep * compliance.norm();  // of what c_k adds to C along v
+    const Eigen::Matrix3d change = step / size * v * v.transpose();
+    result[k] = size * (value(compliance + change) - value(compliance - change)) / (2 * step);
   }
   return result;
 }
 
-double deviation(const JointAngles& slope, const Matrix6d& covariance) {
-  return std::sqrt(std::max(0.0, slope.dot(covariance * slope)));
+double propagated(const Eigen::VectorXd& slope, const ElasticityErrors& errors) {
+  return errors.covariance ? std::max(0.0, slope.dot(*errors.covariance * slope)) : 0;
+}
+
+// Of a stiffness, as a share of it. A discrepancy that does not say which load its absolute part belongs to
+// is one of the task's force; without any that part cannot be told as a share.
+double relative_variance(Discrepancy discrepancy, double stiffness, const StiffnessTask& task) {
+  if (!(discrepancy.force_n > 0)) {
+    discrepancy.force_n = task.force_n ? task.force_n->norm() : 1;
+    if (!task.force_n) discrepancy.absolute_m = 0;
+  }
+  return discrepancy.relative_variance(1 / stiffness);
+}
+
+// A score that is better smaller is a deflection, else a stiffness. One that is made of the stiffness along
+// several axes of the tool is off, as a share, by no more than the worst of them, however they hang together.
+double score_discrepancy(const PoseReport& report, const StiffnessTask& task,
+                         const Discrepancy& discrepancy) {
+  if (discrepancy.none()) return 0;
+  if (!task.index->larger_is_better) return discrepancy.variance(report.score);
+  double share = 0;
+  for (int i = 0; i < 3; ++i) {
+    if (task.index->along[i])
+      share = std::max(share, relative_variance(discrepancy, report.directional_stiffness[i], task));
+  }
+  if (task.index->along == std::array<bool, 3>{}) share = relative_variance(discrepancy, report.score, task);
+  return share * report.score * report.score;
 }
 
 }  // namespace
 
 PoseReport report_pose(const Robot& robot, const JointAngles& angles, const StiffnessTask& task,
-                       const JointAngles& joint_compliance, const std::optional<Matrix6d>& covariance) {
+                       const Elasticity& elasticity, const ElasticityErrors& errors) {
   const RobotPose pose = robot_pose(robot, angles);
-  const Eigen::Matrix3d compliance = translational_compliance(pose, joint_compliance);
+  const Eigen::Matrix3d compliance = translational_compliance(pose, elasticity);
   const Eigen::Matrix3d axes = pose.tool.linear();
   PoseReport report;
   report.angles = angles;
@@ -58,26 +86,30 @@ PoseReport report_pose(const Robot& robot, const JointAngles& angles, const Stif
   }
   report.limit_margin_rad = limit_margin_rad(robot, angles);
   report.singularity_margin = singularity_margin(pose);
-  report.score_gradient = gradient(pose, joint_compliance,
+  report.score_gradient = gradient(pose, elasticity.springs, compliance,
                                    [&](const Eigen::Matrix3d& c) { return stiffness_score(c, axes, task); });
-  if (covariance && std::isfinite(report.score))
-    report.score_std = deviation(report.score_gradient, *covariance);
+  if (errors.known() && std::isfinite(report.score)) {
+    report.discrepancy_variance = score_discrepancy(report, task, errors.discrepancy);
+    report.score_std = std::sqrt(propagated(report.score_gradient, errors) + report.discrepancy_variance);
+  }
   if (task.force_n) {
     const Eigen::Vector3d force = force_in_base(task, axes);
     report.deflection_m = compliance * force;
-    if (covariance) {
-      report.deflection_std_m = deviation(
-          gradient(pose, joint_compliance, [&](const Eigen::Matrix3d& c) { return (c * force).norm(); }),
-          *covariance);
+    if (errors.known()) {
+      const Eigen::VectorXd slope = gradient(pose, elasticity.springs, compliance,
+                                             [&](const Eigen::Matrix3d& c) { return (c * force).norm(); });
+      report.deflection_std_m =
+          std::sqrt(propagated(slope, errors) + errors.discrepancy.variance(report.deflection_m->norm()));
     }
   }
   return report;
 }
 
 double probability_better(const PoseReport& a, const PoseReport& b, const StiffnessTask& task,
-                          const Matrix6d& covariance) {
+                          const ElasticityErrors& errors) {
   const double lead = (a.score - b.score) * (task.index->larger_is_better ? 1 : -1);
-  const double spread = deviation(a.score_gradient - b.score_gradient, covariance);
+  const double spread = std::sqrt(propagated(a.score_gradient - b.score_gradient, errors) +
+                                  a.discrepancy_variance + b.discrepancy_variance);
   if (!(spread > 0)) return lead > 0 ? 1 : lead < 0 ? 0 : 0.5;
   return numerics::normal_cdf(lead / spread);
 }

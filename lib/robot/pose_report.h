@@ -21,18 +21,20 @@ struct PoseReport {
   std::optional<Eigen::Vector3d> deflection_m;  ///< under the force, base frame
   double limit_margin_rad = 0;
   double singularity_margin = 0;  ///< singularity_margin() of the pose
-  /// Standard deviations by linear propagation of the compliances' covariance [JCGM2008, 5.2].
+  /// Standard deviations of what a measurement will show: by linear propagation of the compliances'
+  /// covariance [JCGM2008, 5.2], and the discrepancy. Absent where neither is known.
   std::optional<double> score_std, deflection_std_m;
-  JointAngles score_gradient;  ///< d score / d compliance
+  Eigen::VectorXd score_gradient;   ///< d score / d compliance, of each spring
+  double discrepancy_variance = 0;  ///< what the discrepancy adds to score_std^2
 };
 
-/// `joint_compliance` in rad/(N m); `covariance` of them where known. A force is needed for the index
-/// deflection.
+/// `errors` of the elasticity's springs. A force is needed for the index deflection.
 PoseReport report_pose(const Robot& robot, const JointAngles& angles, const StiffnessTask& task,
-                       const JointAngles& joint_compliance, const std::optional<Matrix6d>& covariance);
+                       const Elasticity& elasticity, const ElasticityErrors& errors);
 
-/// Probability that pose a is better than pose b by the task's index, for normal errors of that covariance.
+/// Probability that pose a is better than pose b by the task's index, for normal errors: the compliances are
+/// those of both, the discrepancies each pose's own.
 double probability_better(const PoseReport& a, const PoseReport& b, const StiffnessTask& task,
-                          const Matrix6d& covariance);
+                          const ElasticityErrors& errors);
 
 }  // namespace stablecut::robot

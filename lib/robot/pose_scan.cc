@@ -24,7 +24,11 @@ std::optional<ScanBest> PointScan::best() const {
 }
 
 PoseScanner::PoseScanner(const Robot& robot, const PoseTask& task)
-    : robot_(robot), task_(task), inverse_(robot), coaxial_(tool_alignment(robot).coaxial()) {
+    : robot_(robot),
+      task_(task),
+      inverse_(robot),
+      springs_(arm_springs(robot, task.elasticity, inverse_)),
+      coaxial_(tool_alignment(robot).coaxial()) {
   if (task.stiffness.index->needs_force && !task.stiffness.force_n) {
     throw InvalidArgument(std::string("force: missing: expected a force for the index ") +
                           task.stiffness.index->name);
@@ -52,6 +56,12 @@ void PoseScanner::solve(const Sample& sample, const Eigen::Vector3d& point, ArmL
   solve_arms(inverse_.constants(), target, lanes);
 }
 
+void PoseScanner::compliances(const ArmLanes& lanes, const Eigen::Vector3d& home_point,
+                              double compliance[6][kArms]) const {
+  arm_compliances(lanes, home_point.data(), springs_.joint, compliance);
+  if (springs_.beyond_joints) add_spring_compliances(lanes, springs_, home_point.data(), compliance);
+}
+
 bool PoseScanner::any_keeps_limits(const double margin[kBranches]) const {
   return std::any_of(margin, margin + kBranches, [&](double m) { return m >= task_.limit_margin_rad; });
 }
@@ -72,7 +82,7 @@ void PoseScanner::scan_samples(const Eigen::Vector3d& point, const Take& take) c
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     solve(samples_[i], point, lanes);
     if (any_keeps_limits(lanes.limit_margin)) {
-      arm_compliances(lanes, home_point.data(), task_.joint_compliance.data(), compliance);
+      compliances(lanes, home_point, compliance);
       arm_merits(samples_[i], compliance, merit);
     }
     for (int b = 0; b < kBranches; ++b) {
@@ -81,7 +91,8 @@ void PoseScanner::scan_samples(const Eigen::Vector3d& point, const Take& take) c
   }
 }
 
-// Joint 6 alone turns a coaxial tool: one arm solution and one compliance for all redundancy angles.
+// Joint 6 alone turns a coaxial tool, and its bearing yields alike in all directions: one arm solution and
+// one compliance for all redundancy angles.
 template <typename Take>
 void PoseScanner::scan_coaxial_samples(const Eigen::Vector3d& point, const Take& take) const {
   const Eigen::Vector3d home_point = inverse_.home_from_base() * point;
@@ -103,7 +114,7 @@ void PoseScanner::scan_coaxial_samples(const Eigen::Vector3d& point, const Take&
     for (int b = 0; b < kBranches; ++b) take(Candidate{0, lanes.limit_margin[b], 0, b});
     return;
   }
-  arm_compliances(lanes, home_point.data(), task_.joint_compliance.data(), compliance);
+  compliances(lanes, home_point, compliance);
   arm_merits(samples_.front(), compliance, merit);
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     const Sample& sample = samples_[i];
@@ -130,7 +141,7 @@ void PoseScanner::for_each_allowed(double x, double y, PointScan& result,
     }
     if (candidate.limit_margin >= task_.limit_margin_rad) take_allowed(candidate);
   };
-  if (coaxial_)
+  if (one_compliance())
     scan_coaxial_samples(point, take);
   else
     scan_samples(point, take);
@@ -198,7 +209,7 @@ std::optional<PoseScanner::Evaluation> PoseScanner::evaluate(const PlanePoint& a
   for (int j = 0; j < kJoints; ++j) evaluation.angles[j] = lanes.angle[j][at.branch];
   double c[6][kArms];
   const Eigen::Vector3d point = inverse_.home_from_base() * evaluation.tool.translation();
-  arm_compliances(lanes, point.data(), task_.joint_compliance.data(), c);
+  compliances(lanes, point, c);
   const int i = at.branch % kArms;
   Eigen::Matrix3d home;
   home << c[0][i], c[1][i], c[2][i], c[1][i], c[3][i], c[4][i], c[2][i], c[4][i], c[5][i];

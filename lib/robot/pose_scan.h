@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "robot/arm_springs.h"
 #include "robot/inverse.h"
 #include "robot/pose_task.h"
 
@@ -50,8 +51,9 @@ class PoseScanner {
   const Robot& robot() const { return robot_; }
   const PoseTask& task() const { return task_; }
   /// False when turning the tool about its axis cannot change the score: the tool is coaxial with joint 6,
-  /// and the task does not feel the tool's turn.
-  bool redundancy_matters() const { return !coaxial_ || task_.stiffness.feels_tool_turn(); }
+  /// whose turn changes no compliance, and the task does not feel the tool's turn.
+  bool redundancy_matters() const { return !one_compliance() || task_.stiffness.feels_tool_turn(); }
+  const ArmSprings& springs() const { return springs_; }
 
   /// For a coaxial tool: +1 where a growing controller angle 6 makes the redundancy angle grow, else -1.
   double turn_sense() const { return turn_sense_; }
@@ -74,6 +76,10 @@ class PoseScanner {
   void scan_coaxial_samples(const Eigen::Vector3d& point, const Take& take) const;
   template <typename TakeAllowed>
   void for_each_allowed(double x, double y, PointScan& result, const TakeAllowed& take_allowed) const;
+  /// All redundancy angles have the compliance of one.
+  bool one_compliance() const { return coaxial_ && springs_.bearing6_alike(); }
+  void compliances(const ArmLanes& lanes, const Eigen::Vector3d& home_point,
+                   double compliance[6][kArms]) const;
   void solve(const Sample& sample, const Eigen::Vector3d& point, ArmLanes& lanes) const;
   void arm_merits(const Sample& sample, const double compliance[6][kArms], double merit[kArms]) const;
   bool any_keeps_limits(const double margin[kBranches]) const;
@@ -85,6 +91,7 @@ class PoseScanner {
   const Robot& robot_;
   const PoseTask& task_;
   InverseKinematics inverse_;
+  ArmSprings springs_;
   bool coaxial_;
   double turn_sense_;
   std::vector<Sample> samples_;

@@ -33,7 +33,7 @@ void check_pose(const Robot& robot, const PoseTask& task, const FoundPose& found
   CHECK(inside(task.x, found.at.x));
   CHECK(inside(task.y, found.at.y));
   if (!task.full_turn()) CHECK(inside(task.redundancy, found.at.redundancy));
-  const Eigen::Matrix3d compliance = translational_compliance(pose, task.joint_compliance);
+  const Eigen::Matrix3d compliance = translational_compliance(pose, task.elasticity);
   CHECK(stiffness_score(compliance, pose.tool.linear(), task.stiffness) ==
         Approx(found.score).epsilon(1e-10));
 }
@@ -145,8 +145,8 @@ TEST_CASE("an offset tool: the redundancy angle matters by what brute force says
     for (const auto& solution : inverse.solve(tool_frame({1.5, 0.3, 1.6}, -Eigen::Vector3d::UnitZ(), turn))) {
       const RobotPose pose = robot_pose(robot, solution.angles);
       if (solution.limit_margin_rad < task.limit_margin_rad || singularity_margin(pose) < 0.01) continue;
-      best_here = std::max(
-          best_here, 1 / principal_compliances(translational_compliance(pose, task.joint_compliance))[0]);
+      best_here =
+          std::max(best_here, 1 / principal_compliances(translational_compliance(pose, task.elasticity))[0]);
     }
     best = std::max(best, best_here);
     if (best_here > 0) worst = std::min(worst, best_here);
@@ -200,7 +200,7 @@ TEST_CASE("random tasks: the search is never beaten by random poses") {
         if (solution.limit_margin_rad < task.limit_margin_rad) continue;
         const RobotPose pose = robot_pose(robot, solution.angles);
         if (singularity_margin(pose) < task.singularity_margin) continue;
-        const double score = stiffness_score(translational_compliance(pose, task.joint_compliance),
+        const double score = stiffness_score(translational_compliance(pose, task.elasticity),
                                              pose.tool.linear(), task.stiffness);
         best = task.stiffness.index->larger_is_better ? std::max(best, score) : std::min(best, score);
         ++tried;

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/range.h"
+#include "robot/joint_stiffness.h"
 #include "robot/robot.h"
 #include "robot/stiffness_index.h"
 
@@ -26,9 +27,9 @@ struct PoseTask {
   Eigen::Vector3d tool_axis = -Eigen::Vector3d::UnitZ();  ///< direction of the tool's z, base frame, length 1
   Range redundancy;  ///< turn about the tool axis, rad (redundancy_angle())
   StiffnessTask stiffness;
-  JointAngles joint_compliance = JointAngles::Zero();  ///< rad/(N m)
-  double limit_margin_rad = 0;                         ///< least distance to keep from every joint limit
-  double singularity_margin = 0;                       ///< least singularity_margin() to keep
+  Elasticity elasticity;
+  double limit_margin_rad = 0;    ///< least distance to keep from every joint limit
+  double singularity_margin = 0;  ///< least singularity_margin() to keep
 
   /// True when the redundancy interval stands for the full turn: what it leaves out is at most one of its
   /// steps and at most 5 degrees.

@@ -113,6 +113,33 @@ int main() {
   });
   print_rate("compliance with principal stiffnesses, in the search", solves * kArms, arm_time);
 
+  // Every spring that there may be, the left-out ones too.
+  Elasticity elasticity = joints_only(compliance);
+  for (int axis = 0; axis < 3; ++axis) elasticity.springs.push_back({Spring::Kind::kBase, 0, axis});
+  for (int j = 0; j < kJoints; ++j) {
+    for (int axis = 0; axis < 2; ++axis) elasticity.springs.push_back({Spring::Kind::kBearing, j, axis});
+  }
+  elasticity.compliance.conservativeResize(static_cast<Eigen::Index>(elasticity.springs.size()));
+  elasticity.compliance.tail(15).setConstant(1e-7);
+  const ArmSprings springs = arm_springs(robot, elasticity, inverse);
+  for (const bool all : {false, true}) {
+    const double time = least_seconds([&] {
+      ArmLanes lanes;
+      double entries[6][kArms];
+      solve_arms(inverse.constants(), targets[0], lanes);
+      for (int r = 0; r < kRepeats; ++r) {
+        for (const ArmTarget& target : targets) {
+          arm_compliances(lanes, target.origin, springs.joint, entries);
+          if (all) add_spring_compliances(lanes, springs, target.origin, entries);
+          sink += entries[5][3];
+        }
+      }
+    });
+    print_rate(all ? "compliance of joints, base and all bearings, in the search"
+                   : "compliance of the joints, in the search",
+               solves * kArms, time);
+  }
+
 #ifdef STABLECUT_HAVE_KDL
   const KDL::Chain chain = kdl_chain(robot);
   KDL::ChainFkSolverPos_recursive forward(chain);

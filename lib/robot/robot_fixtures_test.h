@@ -80,6 +80,49 @@ inline Robot coupled_kr360() {
   return robot;
 }
 
+/// Another robot with a spherical wrist: random lengths, offsets, senses, a tilted, shifted base, and coupled
+/// axes.
+inline Robot random_robot(unsigned seed) {
+  std::mt19937_64 generator(seed);
+  const auto sign = [&] { return generator() & 1 ? 1.0 : -1.0; };
+  Robot robot = kr360();
+  auto& j = robot.joints;
+  for (auto& joint : j) {
+    joint.theta_sign = sign();
+    joint.theta_offset_rad = uniform(generator, -kPi, kPi);
+    joint.min_rad = uniform(generator, -kPi, -1);
+    joint.max_rad = uniform(generator, 1, 2 * kPi);
+  }
+  j[0].a_m = uniform(generator, -0.3, 0.3);
+  j[0].set_alpha(uniform(generator, -1, 1));
+  j[1].a_m = uniform(generator, -0.4, 0.4);
+  j[1].set_alpha(seed % 3 == 0 ? uniform(generator, 0.5, 2.5) : sign() * kPi / 2);
+  j[1].d_m = uniform(generator, -0.2, 0.2);
+  j[2].a_m = uniform(generator, 0.3, 1.2);
+  j[2].set_alpha(seed % 2 == 0 ? 0 : kPi);
+  j[2].d_m = uniform(generator, -0.1, 0.1);
+  j[3].a_m = uniform(generator, -0.2, 0.2);
+  j[3].set_alpha(seed % 5 == 0 ? uniform(generator, 0.4, 2.6) : sign() * kPi / 2);
+  j[3].d_m = uniform(generator, 0.3, 1.1);
+  j[4].set_alpha(sign() * kPi / 2);
+  j[5].set_alpha(sign() * kPi / 2);
+  j[5].d_m = uniform(generator, -0.4, 0.4);
+  robot.tool.linear() =
+      Eigen::AngleAxisd(uniform(generator, -3, 3), Eigen::Vector3d(1, 2, 3).normalized()).matrix();
+  robot.tool.translation() << uniform(generator, -0.3, 0.3), uniform(generator, -0.3, 0.3), 0.2;
+  robot.base = random_frame(generator, 1);
+  if (seed % 2 == 1) {
+    j[2].coupling = {1, sign()};
+    j[2].coupled_min_rad = uniform(generator, -kPi, -1);
+    j[2].coupled_max_rad = uniform(generator, 1, 2 * kPi);
+  }
+  if (seed % 4 == 1) {
+    j[4].max_rad = 2;  // below a full turn, so that the ratio need not be whole
+    j[5].coupling = {4, uniform(generator, -2, 2)};
+  }
+  return robot;
+}
+
 /// Tool straight down at a height (m), whole plane, all redundancy angles, 588.6 N down (the paper's 60 kg).
 inline PoseTask tool_down(const Robot& robot, double height_m, std::string_view index,
                           double limit_margin_deg) {
@@ -91,7 +134,7 @@ inline PoseTask tool_down(const Robot& robot, double height_m, std::string_view 
   task.redundancy = {-kPi, kPi - kPi / 36, 72};
   task.stiffness.index = &stiffness_index(index);
   task.stiffness.force_n = Eigen::Vector3d(0, 0, -588.6);
-  task.joint_compliance = k_theta_2d().cwiseInverse();
+  task.elasticity = joints_only(k_theta_2d().cwiseInverse());
   task.limit_margin_rad = radians_from_degrees(limit_margin_deg);
   task.singularity_margin = 0.01;
   return task;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "document/text/json_text.h"
@@ -17,6 +18,8 @@ struct LoadSamplesDocument {
   std::vector<robot::LoadSample> samples;
   std::vector<std::string> places;  ///< JSON pointer or line of each, for messages
   std::vector<std::string> names;   ///< of each; empty where it has none
+  /// What the file says that deflections are in, m, and forces, N; nothing where components differ.
+  std::optional<double> deflection_unit_m = 1e-3, force_unit_n = 1;
 };
 
 /// Deflection components that are not in `components` may be null. Points default to the robot's tool point.

@@ -17,6 +17,10 @@ struct PlanDocument {
   std::vector<int> pose;                          ///< of each candidate, 0-based in the pose list
   std::vector<std::string> names;                 ///< of the pose list's poses; empty where one has none
   std::optional<robot::JointStiffness> expected;  ///< for deviations of the stiffness
+  /// With an expected stiffness: what the robot may be off by beside it, and the compliances' deviations
+  /// then.
+  robot::Discrepancy discrepancy;
+  robot::JointAngles std_with_discrepancy;
 };
 
 /// The document without provenance.

@@ -103,9 +103,9 @@ Json pose_to_json(const PoseDocument& document, const robot::Robot& robot) {
   Json alternatives = Json::array();
   for (std::size_t i = 0; i < document.search.alternatives.size(); ++i) {
     alternatives.push_back(one(document.reports[i + 1], document.search.alternatives[i]));
-    if (document.covariance) {
+    if (document.errors.known()) {
       alternatives.back()["probability_better"] = robot::probability_better(
-          document.reports[i + 1], document.reports.front(), document.task, *document.covariance);
+          document.reports[i + 1], document.reports.front(), document.task, document.errors);
     }
   }
   result["alternatives"] = std::move(alternatives);
@@ -141,9 +141,9 @@ Json evaluation_to_json(const PoseDocument& document) {
     Json pose = to_json(poses[i], document.task);
     pose["rank"] = rank[i];
     if (!document.names[i].empty()) pose["name"] = document.names[i];
-    if (document.covariance && i != order.front() && std::isfinite(poses[i].score)) {
+    if (document.errors.known() && i != order.front() && std::isfinite(poses[i].score)) {
       pose["probability_better"] =
-          robot::probability_better(poses[i], poses[order.front()], document.task, *document.covariance);
+          robot::probability_better(poses[i], poses[order.front()], document.task, document.errors);
     }
     evaluated.push_back(std::move(pose));
   }

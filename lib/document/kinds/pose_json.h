@@ -19,7 +19,7 @@ struct PlaneDocument {
 
 struct PoseDocument {
   robot::StiffnessTask task;
-  std::optional<robot::Matrix6d> covariance;
+  robot::ElasticityErrors errors;
   // A search.
   PlaneDocument plane;
   robot::PoseSearch search;

@@ -203,6 +203,8 @@ class SampleTable {
     });
     if (rows_.empty()) fail(header_line_, "", "expected rows below the header");
     LoadSamplesDocument result;
+    result.deflection_unit_m = common_unit(ColumnKind::kDeflection);
+    result.force_unit_n = common_unit(ColumnKind::kForce);
     for (const TableRow& row : rows_) {
       check_width(row);
       result.samples.push_back(sample_of(row));
@@ -253,6 +255,16 @@ class SampleTable {
       if (columns_[i] && columns_[i]->kind == kind && columns_[i]->component == component) return i;
     }
     return std::nullopt;
+  }
+
+  std::optional<double> common_unit(ColumnKind kind) const {
+    std::optional<double> unit;
+    for (const auto& column : columns_) {
+      if (!column || column->kind != kind) continue;
+      if (unit && *unit != column->to_si) return std::nullopt;
+      unit = column->to_si;
+    }
+    return unit;
   }
 
   void need(ColumnKind kind, int component, const std::string& name) const {
