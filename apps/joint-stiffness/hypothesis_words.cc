@@ -39,6 +39,8 @@ std::string change_text(const robot::Hypothesis& hypothesis, const robot::Robot&
       return "the angles taken as radians";
     case Kind::kLoadPoint:
       return "the load " + vector_text(hypothesis.vector * 1e3) + " mm beside its point (flange frame)";
+    case Kind::kOwnWeight:
+      return "the robot's own weight, as of deflections from where it would be without,";
     case Kind::kLength:
       return "the link before " + joint + " longer by " + number_text(hypothesis.vector[0] * 1e3, 3) + " mm";
     case Kind::kNone:

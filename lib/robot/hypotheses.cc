@@ -85,6 +85,9 @@ void apply(const Hypothesis& hypothesis, Robot& robot, std::vector<LoadSample>& 
     case Kind::kLoadPoint:
       for (LoadSample& sample : samples) sample.force_point += hypothesis.vector;
       return;
+    case Kind::kOwnWeight:
+      for (LoadSample& sample : samples) sample.with_own_weight = true;
+      return;
     case Kind::kLength: {
       Joint& joint = robot.joints[hypothesis.joint];
       double& length = std::abs(joint.a_m) > std::abs(joint.d_m) ? joint.a_m : joint.d_m;
@@ -130,6 +133,9 @@ std::vector<Hypothesis> hypotheses(const Robot& robot, const std::vector<LoadSam
   for (const LoadSample& sample : samples) angles.push_back(sample.angles);
   if (looks_like_radians(angles)) list.push_back({.kind = Kind::kRadians});
   list.push_back({.kind = Kind::kLoadPoint});
+  if (std::any_of(robot.joints.begin(), robot.joints.end(),
+                  [](const Joint& j) { return j.mass.has_value(); }))
+    list.push_back({.kind = Kind::kOwnWeight});
   for (const int j : {kForearm, kForearm + 1}) list.push_back({.kind = Kind::kLength, .joint = j});
   for (const double factor : options.deflection_factors)
     list.push_back({.kind = Kind::kDeflectionUnit, .factor = factor});

@@ -20,6 +20,7 @@ struct Hypothesis {
     kRotated,         ///< the same by any small `vector`, fitted
     kRadians,         ///< the angles are radians that were read as degrees
     kLoadPoint,       ///< the load acts `vector` beside its point, flange frame, m, fitted
+    kOwnWeight,       ///< the deflections are from where the robot would be without weight
     kLength,          ///< the link before `joint` is longer by the first number of `vector`, m, fitted
     kDeflectionUnit,  ///< deflections and their deviations times `factor`
     kForceUnit,       ///< forces and moments times `factor`

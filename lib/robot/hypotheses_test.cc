@@ -193,4 +193,40 @@ TEST_CASE("a residual above a third of the deflection is a misfit") {
   CHECK_FALSE(misfit(0.33, 1));
 }
 
+TEST_CASE(
+    "deflections from where the robot would be without weight are named, and the joints found with it") {
+  Robot robot = fixtures::kr360();
+  const double mass_kg[] = {400, 350, 250, 60, 40, 10};
+  for (int j = 0; j < kJoints; ++j) robot.joints[j].mass = LinkMass{mass_kg[j], {0.1, 0.05, 0.15}};
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    std::vector<LoadSample> samples = measured(robot, seed);
+    CHECK(named(robot, samples).kind == Kind::kNone);
+    // Each link's weight at its centre, through the joints before it, by their Jacobians.
+    for (LoadSample& sample : samples) {
+      const RobotPose pose = robot_pose(robot, sample.angles);
+      const auto at_tool = translational_jacobian(pose, pose.flange * sample.measuring_point);
+      for (int link = 0; link < kJoints; ++link) {
+        Eigen::Matrix3d frame;
+        const Eigen::Vector3d z = robot.joints[link].theta_sign * pose.axis.col(link);
+        frame << pose.frame_x.col(link), z.cross(pose.frame_x.col(link)), z;
+        const auto at_centre =
+            translational_jacobian(pose, pose.point.col(link) + frame * robot.joints[link].mass->center_m);
+        for (int j = 0; j <= link; ++j) {
+          const double torque = -9.80665 * mass_kg[link] * at_centre(2, j);
+          sample.deflection_m += torque / fixtures::k_theta_2d()[j] * at_tool.col(j);
+        }
+      }
+    }
+    const Hypothesis found = named(robot, samples);
+    CHECK(found.kind == Kind::kOwnWeight);
+    Robot same = robot;
+    apply(found, same, samples);
+    const ComplianceEquations equations =
+        compliance_equations(same, springs_of(same, ElasticModel::kJointsOnly), samples, {true, true, true});
+    const Eigen::VectorXd exact =
+        equations.a * Eigen::VectorXd(fixtures::k_theta_2d().cwiseInverse()) - equations.b;
+    CHECK(exact.cwiseAbs().maxCoeff() < 5 * kNoise);  // the noise alone
+  }
+}
+
 }  // namespace stablecut::robot

@@ -35,7 +35,8 @@ ComplianceEquations compliance_equations(const Robot& robot, const std::vector<S
     Eigen::RowVectorXd largest_load(n), lever(n), turns(n);
     for (Eigen::Index k = 0; k < n; ++k) {
       const SpringAxis axis = spring_axis(pose, springs[k]);
-      const double load = axis.load(sample.force_n, force_point, sample.moment_n_m);
+      double load = axis.load(sample.force_n, force_point, sample.moment_n_m);
+      if (sample.with_own_weight) load += weight_load(robot, pose, springs[k]);
       moved.col(k) = load * axis.displacement(measuring_point);
       turned.col(k) = load * axis.rotation();
       turns[k] = axis.turns ? 1 : 0;

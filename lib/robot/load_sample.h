@@ -18,6 +18,9 @@ struct LoadSample {
   Eigen::Vector3d force_point;      ///< where the force acts
   Eigen::Vector3d measuring_point;  ///< whose displacement is measured
   Eigen::Vector3d deflection_m = Eigen::Vector3d::Zero();
+  /// The deflection is from where the robot would be without weight, so that its links' weight is a load too.
+  /// Between an unloaded and a loaded robot their weight makes no difference.
+  bool with_own_weight = false;
   std::optional<Eigen::Vector3d> rotation_rad;  ///< of the last link, when measured
   std::optional<Eigen::Vector3d> deflection_std_m, rotation_std_rad;
 };

@@ -9,6 +9,7 @@ namespace stablecut::robot {
 namespace {
 
 constexpr int kTrialPoses = 24;       // at which springs are compared
+constexpr double kGravity = 9.80665;  // m/s2, the standard value
 constexpr double kSameSpring = 1e-9;  // of its length: what the springs before leave of a column
 
 std::vector<Spring> all_springs(ElasticModel model) {
@@ -70,6 +71,21 @@ std::vector<Spring> springs_of(const Robot& robot, ElasticModel model) {
     if (of_its_own || spring.kind == Spring::Kind::kJoint) springs.push_back(spring);
   }
   return springs;
+}
+
+double weight_load(const Robot& robot, const RobotPose& pose, const Spring& spring) {
+  const SpringAxis axis = spring_axis(pose, spring);
+  double load = 0;
+  for (int j = spring.kind == Spring::Kind::kBase ? 0 : spring.joint; j < kJoints; ++j) {
+    const auto& mass = robot.joints[j].mass;
+    if (!mass) continue;
+    const Eigen::Vector3d x = pose.frame_x.col(j), z = robot.joints[j].theta_sign * pose.axis.col(j);
+    Eigen::Matrix3d frame;
+    frame << x, z.cross(x), z;
+    load += axis.load({0, 0, -mass->mass_kg * kGravity}, pose.point.col(j) + frame * mass->center_m,
+                      Eigen::Vector3d::Zero());
+  }
+  return load;
 }
 
 Eigen::Matrix3d compliance_at(const RobotPose& pose, const std::vector<Spring>& springs,

@@ -54,6 +54,10 @@ struct SpringAxis {
 
 SpringAxis spring_axis(const RobotPose& pose, const Spring& spring);
 
+/// What the weight of the links behind a spring, those whose mass is known, loads it with: N m or N. Weight
+/// acts along -z of the base frame.
+double weight_load(const Robot& robot, const RobotPose& pose, const Spring& spring);
+
 /// Compliance of a point on the last link, m/N, base frame: the sum of c_k v_k v_k^T over the springs, with
 /// v_k = displacement(point).
 Eigen::Matrix3d compliance_at(const RobotPose& pose, const std::vector<Spring>& springs,

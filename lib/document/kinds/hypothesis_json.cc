@@ -75,6 +75,8 @@ std::string hypothesis_name(const robot::Hypothesis& hypothesis, const robot::Ro
       return "angles:rad";
     case Kind::kLoadPoint:
       return "load-point";
+    case Kind::kOwnWeight:
+      return "own-weight";
     case Kind::kLength:
       return "length:" + joint;
     case Kind::kDeflectionUnit:
