@@ -1,6 +1,5 @@
 #include "milling/arc_polynomials.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -14,45 +13,18 @@ namespace {
 constexpr int kShortArcPolynomials = 5;
 constexpr double kRoundingOfShare = 1e-6;
 
-// How many polynomials each arc has.
-std::vector<Eigen::Index> counts_of(const Collocation& collocation, Eigen::Index most) {
-  std::vector<double> lengths;
-  for (const CollocationArc& arc : collocation.arcs) {
-    lengths.push_back(0);
-    for (const std::size_t node : arc.nodes) lengths.back() += collocation.nodes[node].weight_s;
-  }
-  const double longest = lengths.empty() ? 1 : *std::max_element(lengths.begin(), lengths.end());
-  std::vector<Eigen::Index> counts;
-  for (std::size_t a = 0; a < lengths.size(); ++a) {
-    const auto share = static_cast<Eigen::Index>(
-        std::ceil(lengths[a] / longest * static_cast<double>(most) - kRoundingOfShare));
-    counts.push_back(std::clamp<Eigen::Index>(std::min(most, share + kShortArcPolynomials), 1,
-                                              static_cast<Eigen::Index>(collocation.arcs[a].nodes.size())));
-  }
-  return counts;
-}
-
-}  // namespace
-
+// [rows] Square root of the quadrature weight of each row's node: what is sensed times this has the
+// integral's norm.
 Eigen::VectorXd root_weights(const Collocation& collocation) {
-  Eigen::VectorXd weights = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(collocation.rows.size()));
-  if (!collocation.polynomials.empty()) return weights;
+  Eigen::VectorXd weights(static_cast<Eigen::Index>(collocation.rows.size()));
   for (Eigen::Index r = 0; r < weights.size(); ++r)
     weights[r] = std::sqrt(collocation.nodes[collocation.rows[r].node].weight_s);
   return weights;
 }
 
-Eigen::MatrixXd arc_polynomials(const Collocation& collocation, Eigen::Index most) {
-  const std::vector<Eigen::Index> counts = counts_of(collocation, most);
-  const auto rows = static_cast<Eigen::Index>(collocation.rows.size());
-  Eigen::MatrixXd basis(rows, 0);
-  if (!collocation.polynomials.empty()) {
-    std::vector<Eigen::Index> kept;
-    for (Eigen::Index r = 0; r < rows; ++r) {
-      if (collocation.polynomials[r].degree < counts[collocation.polynomials[r].arc]) kept.push_back(r);
-    }
-    return Eigen::MatrixXd::Identity(rows, rows)(Eigen::all, kept);
-  }
+// [rows x columns] Orthonormal columns: polynomials along each arc.
+Eigen::MatrixXd basis_of(const Collocation& collocation, const std::vector<Eigen::Index>& counts) {
+  Eigen::MatrixXd basis(static_cast<Eigen::Index>(collocation.rows.size()), 0);
   for (std::size_t a = 0; a < collocation.arcs.size(); ++a) {
     const CollocationArc& arc = collocation.arcs[a];
     const auto points = static_cast<Eigen::Index>(arc.nodes.size());
@@ -61,13 +33,7 @@ Eigen::MatrixXd arc_polynomials(const Collocation& collocation, Eigen::Index mos
     for (Eigen::Index i = 0; i < points; ++i)
       values.row(i) = std::sqrt(collocation.nodes[arc.nodes[i]].weight_s) *
                       numerics::legendre_values(arc.place[i], count).transpose();
-    // Along one piece they are orthogonal already.
-    Eigen::MatrixXd orthonormal = values;
-    if (arc.pieces == 1)
-      orthonormal.colwise().normalize();
-    else
-      orthonormal = Eigen::HouseholderQR<Eigen::MatrixXd>(values).householderQ() *
-                    Eigen::MatrixXd::Identity(points, count);
+    values.colwise().normalize();
     const Eigen::Index kinds = collocation.nodes[arc.nodes.front()].drive.cols();
     const Eigen::Index before = basis.cols();
     basis.conservativeResize(Eigen::NoChange, before + kinds * count);
@@ -75,13 +41,36 @@ Eigen::MatrixXd arc_polynomials(const Collocation& collocation, Eigen::Index mos
     for (Eigen::Index i = 0; i < points; ++i)
       for (Eigen::Index kind = 0; kind < kinds; ++kind)
         basis.block(collocation.nodes[arc.nodes[i]].first_row + kind, before + kind * count, 1, count) =
-            orthonormal.row(i);
+            values.row(i);
   }
   return basis;
 }
 
+}  // namespace
+
+std::vector<Eigen::Index> polynomials_on(const std::vector<double>& arc_length, Eigen::Index most) {
+  const double longest = arc_length.empty() ? 1 : *std::max_element(arc_length.begin(), arc_length.end());
+  std::vector<Eigen::Index> counts;
+  for (const double length : arc_length) {
+    const auto share =
+        static_cast<Eigen::Index>(std::ceil(length / longest * static_cast<double>(most) - kRoundingOfShare));
+    counts.push_back(std::max<Eigen::Index>(std::min(most, share + kShortArcPolynomials), 1));
+  }
+  return counts;
+}
+
+std::vector<double> arc_lengths(const Collocation& collocation) {
+  std::vector<double> lengths;
+  for (const CollocationArc& arc : collocation.arcs) {
+    lengths.push_back(0);
+    for (const std::size_t node : arc.nodes) lengths.back() += collocation.nodes[node].weight_s;
+  }
+  return lengths;
+}
+
 Collocation along_arcs(const Collocation& c, Eigen::Index most) {
-  const Eigen::MatrixXd basis = arc_polynomials(c, most);
+  const std::vector<Eigen::Index> counts = polynomials_on(arc_lengths(c), most);
+  const Eigen::MatrixXd basis = basis_of(c, counts);
   Eigen::VectorXd weight = root_weights(c);
   weight /= weight.norm();  // so that coefficients are of the size of what is sensed
   const Eigen::MatrixXd to = basis.transpose() * weight.asDiagonal();
@@ -96,7 +85,6 @@ Collocation along_arcs(const Collocation& c, Eigen::Index most) {
   result.sensed_of_state = result.difference_of_state;
   result.sensed_of_drive = result.difference_of_drive;
   // In the order of the basis: arc by arc, the polynomials of one kind of row after those of the other.
-  const std::vector<Eigen::Index> counts = counts_of(c, most);
   for (std::size_t a = 0; a < c.arcs.size(); ++a) {
     const CollocationNode& node = c.nodes[c.arcs[a].nodes.front()];
     for (Eigen::Index like = node.first_row; like < node.end_row(); ++like) {

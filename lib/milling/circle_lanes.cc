@@ -67,17 +67,18 @@ STABLECUT_INLINE ComplexLanes row_times(const double* row, Eigen::Index stride, 
 
 struct Arrays {
   Eigen::Index size, modes;
-  bool plain;
-  const double *direct, *direct_before, *of_state, *of_state_before, *state_of;  // column by column
+  const double* state_of;  // column by column, as the parts'
   const Eigen::Index* group_of;
-  const double *factors, *before;
+  const double *factors, *scales;
 };
 
-// l^H M r and l^H M' r over l^H r, M' by the angle: two blocks. work: 4 modes blocks.
-STABLECUT_WIDE void quotients(const Arrays& of, const double* r, const double* l, double* work,
-                              double* result) {
+struct PartArrays {
+  const double *direct, *of_state;  // of_state: none where nothing is felt of the state
+};
+
+// x = G B r and its derivative by the angle: 2 modes blocks each.
+STABLECUT_WIDE void states_of(const Arrays& of, const double* r, double* x, double* dx) {
   const Eigen::Index n = of.size, m = of.modes;
-  double *x = work, *dx = work + 2 * m * kComplexLanes;
   for (Eigen::Index k = 0; k < m; ++k) {
     const double* f = of.factors + kFactors * of.group_of[k] * kComplexLanes;
     const ComplexLanes a = load_complex(f), b = load_complex(f + kComplexLanes),
@@ -89,25 +90,36 @@ STABLECUT_WIDE void quotients(const Arrays& of, const double* r, const double* l
     store_complex(da * re - db * im, dx + k * kComplexLanes);
     store_complex(db * re + da * im, dx + (m + k) * kComplexLanes);
   }
-  const ComplexLanes before = load_complex(of.before);
-  // Derivative of 1 / mu: -i / mu.
-  const ComplexLanes turned{before.im, -before.re};
-  ComplexLanes value{Lanes{}, Lanes{}}, slope = value, scale = value;
+}
+
+// Adds l^H M r and l^H M' r of a part, M' by the angle, to two blocks.
+STABLECUT_WIDE void add_quotients(const Arrays& of, const PartArrays& part, const double* scales,
+                                  const double* r, const double* l, const double* x, const double* dx,
+                                  double* sums) {
+  const Eigen::Index n = of.size, m = of.modes;
+  const ComplexLanes scale = load_complex(scales), scale_slope = load_complex(scales + kComplexLanes);
+  ComplexLanes value = load_complex(sums), slope = load_complex(sums + kComplexLanes);
   for (Eigen::Index i = 0; i < n; ++i) {
     const ComplexLanes left = load_complex(l + i * kComplexLanes);
-    const ComplexLanes now = row_times(of.direct + i, n, n, r) + row_times(of.of_state + i, n, 2 * m, x);
-    const ComplexLanes changed = row_times(of.of_state + i, n, 2 * m, dx);
-    ComplexLanes past{-now.re, -now.im}, past_changed{-changed.re, -changed.im};
-    if (!of.plain) {
-      past = row_times(of.direct_before + i, n, n, r) + row_times(of.of_state_before + i, n, 2 * m, x);
-      past_changed = row_times(of.of_state_before + i, n, 2 * m, dx);
+    ComplexLanes now = row_times(part.direct + i, n, n, r), changed{Lanes{}, Lanes{}};
+    if (part.of_state != nullptr) {
+      now = now + row_times(part.of_state + i, n, 2 * m, x);
+      changed = row_times(part.of_state + i, n, 2 * m, dx);
     }
-    value = value + conjugate_times(left, now + before * past);
-    slope = slope + conjugate_times(left, changed + before * past_changed + turned * past);
-    scale = scale + conjugate_times(left, load_complex(r + i * kComplexLanes));
+    value = value + conjugate_times(left, scale * now);
+    slope = slope + conjugate_times(left, scale * changed + scale_slope * now);
   }
-  store_complex(quotient(value, scale), result);
-  store_complex(quotient(slope, scale), result + kComplexLanes);
+  store_complex(value, sums);
+  store_complex(slope, sums + kComplexLanes);
+}
+
+// The sums over l^H r.
+STABLECUT_WIDE void divide(const double* r, const double* l, Eigen::Index n, double* sums) {
+  ComplexLanes scale{Lanes{}, Lanes{}};
+  for (Eigen::Index i = 0; i < n; ++i)
+    scale = scale + conjugate_times(load_complex(l + i * kComplexLanes), load_complex(r + i * kComplexLanes));
+  for (int k = 0; k < 2; ++k)
+    store_complex(quotient(load_complex(sums + k * kComplexLanes), scale), sums + k * kComplexLanes);
 }
 
 void put(Complex value, Eigen::Index lane, double* block) {
@@ -128,7 +140,7 @@ CircleLanes::CircleLanes(const CircleOperator& of)
       modes_(of.growth.size()),
       groups_(0),
       factors_(0),
-      before_(4),
+      scales_(4 * static_cast<std::ptrdiff_t>(of.parts.size())),
       right_(2 * size_),
       left_(2 * size_),
       work_(8 * modes_ + 4),
@@ -139,32 +151,40 @@ CircleLanes::CircleLanes(const CircleOperator& of)
   }
   groups_ = static_cast<Eigen::Index>(growth_.size());
   factors_ = numerics::LaneArray(2 * kFactors * groups_);
-  const auto terms = [&](const Eigen::MatrixXd& direct, const Eigen::MatrixXd& of_state) {
-    std::vector<double> result(size_ * size_ * (1 + 2 * groups_), 0.0);
-    double* to = result.data();
+  for (const CircleOperator::Part& part : of.parts) {
+    const bool of_state = part.of_state.cols() > 0;
+    const Eigen::Index stride = of_state ? 1 + 2 * groups_ : 1;
+    terms_.emplace_back(size_ * size_ * stride, 0.0);
+    double* to = terms_.back().data();
     for (Eigen::Index i = 0; i < size_; ++i) {
-      for (Eigen::Index j = 0; j < size_; ++j, to += 1 + 2 * groups_) {
-        to[0] = direct(i, j);
-        for (Eigen::Index k = 0; k < modes_; ++k) {
-          const double ur = of_state(i, k), ui = of_state(i, modes_ + k);
-          const double br = of_.state_of(k, j), bi = of_.state_of(modes_ + k, j);
+      for (Eigen::Index j = 0; j < size_; ++j, to += stride) {
+        to[0] = part.direct(i, j);
+        for (Eigen::Index k = 0; of_state && k < modes_; ++k) {
+          const double ur = part.of_state(i, k), ui = part.of_state(i, modes_ + k);
+          const double br = of.state_of(k, j), bi = of.state_of(modes_ + k, j);
           to[1 + 2 * group_of_[k]] += ur * br + ui * bi;
           to[2 + 2 * group_of_[k]] += ui * br - ur * bi;
         }
       }
     }
-    return result;
-  };
-  terms_ = terms(of.direct, of.of_state);
-  if (!of.plain()) terms_before_ = terms(of.direct_before, of.of_state_before);
+  }
 }
 
 void CircleLanes::form(const Angles& angles) {
-  double *before = before_.data(), *scale = before + kComplexLanes;
   for (Eigen::Index lane = 0; lane < kLanes; ++lane) {
     const Complex mu = std::polar(1.0, angles[lane]), i_mu(-mu.imag(), mu.real());
-    put(std::conj(mu), lane, before);
-    put(of_.plain() ? 1.0 - std::conj(mu) : 1.0, lane, scale);
+    for (std::size_t p = 0; p < of_.parts.size(); ++p) {
+      const int delay = of_.parts[p].delay;
+      const Complex delayed = std::polar(1.0, -delay * angles[lane]);
+      Complex scale = delayed, slope = delayed * Complex(0, -delay);
+      if (of_.plain) {
+        // Times 1 - 1 / mu, whose derivative is i / mu.
+        slope = slope * (1.0 - std::conj(mu)) + delayed * Complex(mu.imag(), mu.real());
+        scale *= 1.0 - std::conj(mu);
+      }
+      put(scale, lane, scales_.data() + 2 * p * kComplexLanes);
+      put(slope, lane, scales_.data() + (2 * p + 1) * kComplexLanes);
+    }
     for (Eigen::Index g = 0; g < groups_; ++g) {
       // (mu - free flight)^-1 of one mode is [a -b; b a].
       const Complex first = reciprocal(mu - growth_[g]), second = reciprocal(mu - std::conj(growth_[g]));
@@ -177,27 +197,24 @@ void CircleLanes::form(const Angles& angles) {
       put(-half_i * (first_slope - second_slope), lane, f + 3 * kComplexLanes);
     }
   }
-  form_matrix(terms_.data(), size_ * size_, groups_, factors_.data(), scale, false, eigen_.matrix());
-  if (!of_.plain())
-    form_matrix(terms_before_.data(), size_ * size_, groups_, factors_.data(), before, true, eigen_.matrix());
+  for (std::size_t p = 0; p < of_.parts.size(); ++p)
+    form_matrix(terms_[p].data(), size_ * size_, of_.parts[p].of_state.cols() > 0 ? groups_ : 0,
+                factors_.data(), scales_.data() + 2 * p * kComplexLanes, p > 0, eigen_.matrix());
   eigen_.reduce();
 }
 
 EigenvalueLanes CircleLanes::refined(const std::array<Complex, kPlaces>& shifts) {
   eigen_.vectors(shifts, right_.data(), left_.data());
-  const Arrays arrays{size_,
-                      modes_,
-                      of_.plain(),
-                      of_.direct.data(),
-                      of_.direct_before.data(),
-                      of_.of_state.data(),
-                      of_.of_state_before.data(),
-                      of_.state_of.data(),
-                      group_of_.data(),
-                      factors_.data(),
-                      before_.data()};
-  alignas(64) double result[2 * kComplexLanes];
-  quotients(arrays, right_.data(), left_.data(), work_.data(), result);
+  const Arrays arrays{size_, modes_, of_.state_of.data(), group_of_.data(), factors_.data(), scales_.data()};
+  double *x = work_.data(), *dx = x + 2 * modes_ * kComplexLanes;
+  states_of(arrays, right_.data(), x, dx);
+  alignas(64) double result[2 * kComplexLanes] = {};
+  for (std::size_t p = 0; p < of_.parts.size(); ++p) {
+    const CircleOperator::Part& part = of_.parts[p];
+    add_quotients(arrays, {part.direct.data(), part.of_state.cols() > 0 ? part.of_state.data() : nullptr},
+                  scales_.data() + 2 * p * kComplexLanes, right_.data(), left_.data(), x, dx, result);
+  }
+  divide(right_.data(), left_.data(), size_, result);
   EigenvalueLanes lanes;
   for (Eigen::Index lane = 0; lane < kLanes; ++lane) {
     lanes.value[lane] = get(result, lane);
@@ -206,10 +223,10 @@ EigenvalueLanes CircleLanes::refined(const std::array<Complex, kPlaces>& shifts)
   return lanes;
 }
 
-Eigen::VectorXcd CircleLanes::right(std::size_t place) const {
+Eigen::VectorXcd CircleLanes::vector(const numerics::LaneArray& of, std::size_t place) const {
   Eigen::VectorXcd vector(size_);
   for (Eigen::Index i = 0; i < size_; ++i)
-    vector[i] = get(right_.data() + i * kComplexLanes, static_cast<Eigen::Index>(place));
+    vector[i] = get(of.data() + i * kComplexLanes, static_cast<Eigen::Index>(place));
   return vector;
 }
 

@@ -39,8 +39,9 @@ class CircleLanes {
   std::array<std::complex<double>, kPlaces> determinant_phases(double depth_m) {
     return eigen_.determinant_phases(1 / depth_m);
   }
-  /// Right vector of the last refined().
-  Eigen::VectorXcd right(std::size_t place) const;
+  /// Vectors of the last refined().
+  Eigen::VectorXcd right(std::size_t place) const { return vector(right_, place); }
+  Eigen::VectorXcd left(std::size_t place) const { return vector(left_, place); }
 
   /// Eight of some items, from `first` on; where there are fewer the last one again and again.
   template <typename T>
@@ -51,13 +52,15 @@ class CircleLanes {
   }
 
  private:
+  Eigen::VectorXcd vector(const numerics::LaneArray& of, std::size_t place) const;
+
   const CircleOperator& of_;
   Eigen::Index size_, modes_, groups_;
   std::vector<Eigen::Index> group_of_;        // [modes] those with equal poles together
   std::vector<std::complex<double>> growth_;  // [groups]
-  std::vector<double> terms_, terms_before_;  // [size x size x (1 + 2 groups)]
+  std::vector<std::vector<double>> terms_;    // [parts][size x size x (1 + 2 groups); or x 1 without states]
   numerics::LaneArray factors_;               // [groups x (a, b, a', b')] blocks of G and its derivative
-  numerics::LaneArray before_;                // one block: 1 / mu
+  numerics::LaneArray scales_;  // [parts x 2] blocks: what multiplies a part, and its derivative
   numerics::LaneArray right_, left_, work_;
   numerics::ComplexEigenLanes eigen_;
 };

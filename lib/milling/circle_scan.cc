@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include "base/units.h"
-#include "milling/arc_polynomials.h"
 #include "milling/circle_lanes.h"
+#include "milling/circle_reduction.h"
 #include "milling/circle_search.h"
 
 namespace stablecut::milling {
@@ -30,6 +30,13 @@ constexpr double kShareOfPoints = 0.6;
 constexpr Eigen::Index kMorePolynomials = 2, kLeastFew = 6;
 // An eigenvalue of the search may be wrong by so many times what one of them is seen to be.
 constexpr double kMarginOfMove = 10;
+// Operators of more rows are searched in a space that has their large eigenvalues: what acts with less than
+// this share of what limits at the largest depth is left out, and with each attempt so much less.
+constexpr Eigen::Index kManyWhole = 26;
+constexpr double kLeadingShare = 0.7, kSmallerShare = 0.25;
+// How often what vectors lack is added to that space, until it changes eigenvalues by less than this share.
+constexpr int kMostEnrichments = 5;
+constexpr double kResolved = 1e-9;
 // Radians that a determinant's phase may change from place to place, and places at which that is given up.
 constexpr double kMostTurnOfWhole = 1;
 constexpr std::size_t kMostPlacesOfWhole = 6000;
@@ -61,16 +68,16 @@ std::optional<int> winding(CircleLanes& lanes, std::vector<double> angles, doubl
   return std::nullopt;
 }
 
-// Newton's method on the whole operator, eight at a time: where the eigenvalue is real.
+// Newton's method on an operator, eight at a time: where the eigenvalue is real.
 class Refinement {
  public:
-  Refinement(const CircleOperator& whole, const Eigen::VectorXd& weights)
-      : lanes_(whole), weights_(weights) {}
+  // `basis`: the operator's rows, of the rows that passages are to have; none: they are the same.
+  explicit Refinement(const CircleOperator& of, const Eigen::MatrixXd* basis = nullptr)
+      : lanes_(of), basis_(basis) {}
   CircleLanes& lanes() { return lanes_; }
 
-  // From each start to the passage (or eigenvalue) near it, by steps of at most `stretch`; those that do not
-  // get there are left out.
-  std::vector<CirclePassage> passages(const std::vector<Start>& starts, double stretch) {
+  // From each start to the passage (or eigenvalue) near it, those that do not get there are left out.
+  std::vector<CirclePassage> passages(const std::vector<Start>& starts) {
     std::vector<CirclePassage> result;
     for (std::size_t first = 0; first < starts.size(); first += CircleLanes::kPlaces) {
       auto eight = CircleLanes::eight_from(starts, first);
@@ -84,7 +91,7 @@ class Refinement {
           if (there)
             result.push_back(passage(eight[i], eigen.value[i], eigen.slope[i], i));
           else
-            eight[i] = next(eight[i], eigen.value[i], eigen.slope[i], stretch);
+            eight[i] = next(eight[i], eigen.value[i], eigen.slope[i]);
           return there;
         });
       }
@@ -92,7 +99,19 @@ class Refinement {
     return result;
   }
 
-  // The eigenvalues near those of the starts, at their angles.
+  // The eigenvalues near those of the starts, at their angles, as passages.
+  std::vector<CirclePassage> at(const std::vector<Start>& starts) {
+    std::vector<CirclePassage> result;
+    for (std::size_t first = 0; first < starts.size(); first += CircleLanes::kPlaces) {
+      const auto eight = CircleLanes::eight_from(starts, first);
+      const EigenvalueLanes eigen = values_near(eight);
+      for (std::size_t i = 0; i < CircleLanes::kPlaces && first + i < starts.size(); ++i)
+        result.push_back(passage(eight[i], eigen.value[i], eigen.slope[i], i));
+    }
+    return result;
+  }
+
+ private:
   EigenvalueLanes values_near(const std::array<Start, CircleLanes::kPlaces>& starts) {
     CircleLanes::Angles angles;
     std::array<Complex, CircleLanes::kPlaces> shifts;
@@ -104,15 +123,14 @@ class Refinement {
     return lanes_.refined(shifts);
   }
 
- private:
   static bool arrived(const Start& at, Complex value) {
     if (at.seek == Seek::kAxis) return std::abs(value.imag()) < kOnAxis * std::abs(value);
     return std::abs(value - at.value) < kSameValue * std::abs(value);
   }
 
-  static Start next(Start at, Complex value, Complex slope, double stretch) {
+  static Start next(Start at, Complex value, Complex slope) {
     const double step =
-        at.seek == Seek::kAxis ? std::clamp(-value.imag() / slope.imag(), -stretch, stretch) : 0.0;
+        at.seek == Seek::kAxis ? std::clamp(-value.imag() / slope.imag(), -kLargestStep, kLargestStep) : 0.0;
     at.value = value + slope * step;
     at.angle = std::clamp(at.angle + step, 0.0, kPi);
     return at;
@@ -121,18 +139,66 @@ class Refinement {
   CirclePassage passage(const Start& at, Complex value, Complex slope, std::size_t place) const {
     CirclePassage passage;
     passage.angle = at.angle;
-    passage.is_real = at.seek == Seek::kAtOne;
+    passage.seek = at.seek;
     passage.depth_m = 1 / value.real();
     passage.outwards = slope.imag() < 0;
     passage.value = value;
     passage.slope = slope;
-    passage.difference = lanes_.right(place).cwiseQuotient(weights_.cast<Complex>());
+    passage.difference = lanes_.right(place);
+    passage.left = lanes_.left(place);
+    if (basis_ != nullptr) {
+      passage.difference = *basis_ * passage.difference;
+      passage.left = *basis_ * passage.left;
+    }
     return passage;
   }
 
   CircleLanes lanes_;
-  Eigen::VectorXd weights_;
+  const Eigen::MatrixXd* basis_;
 };
+
+EigenTriple triple_of(const CirclePassage& passage) {
+  return {passage.angle, passage.value, passage.difference.normalized(), passage.left.normalized()};
+}
+
+// The space that the search works in: a part of the whole operator's.
+struct SearchSpace {
+  Eigen::MatrixXd basis;  // [whole x rows]
+  CircleOperator few;
+};
+
+// Passages of the whole operator from those of a part of its space, eight at a time: what the vectors lack is
+// added to the space until nothing is. `search_error`: of an eigenvalue's size, how wrong those of the part
+// may be.
+std::vector<CirclePassage> passages_by_residuals(const CircleOperator& whole, const SearchSpace& space,
+                                                 const std::vector<Start>& starts, double& search_error) {
+  std::vector<CirclePassage> result;
+  search_error = 0;
+  for (std::size_t first = 0; first < starts.size(); first += CircleLanes::kPlaces) {
+    const std::size_t end = std::min(first + CircleLanes::kPlaces, starts.size());
+    const std::vector<Start> some(starts.begin() + first, starts.begin() + end);
+    std::vector<CirclePassage> found = Refinement(space.few, &space.basis).at(some);
+    Eigen::MatrixXd basis = space.basis;
+    for (int turn = 0; turn < kMostEnrichments; ++turn) {
+      std::vector<EigenTriple> triples;
+      for (const CirclePassage& passage : found) triples.push_back(triple_of(passage));
+      const Residuals lacking = residuals(whole, triples);
+      double error = 0;
+      for (std::size_t i = 0; i < found.size(); ++i)
+        error = std::max(error, lacking.right.col(i).norm() * lacking.left.col(i).norm() /
+                                    std::abs(triples[i].left.dot(triples[i].right)));
+      if (turn == 0) search_error = std::max(search_error, error);
+      if (turn > 0 && error < kResolved) {
+        for (CirclePassage& passage : found) result.push_back(std::move(passage));
+        break;
+      }
+      basis = enriched(basis, lacking);
+      const CircleOperator more = projected(whole, basis);
+      found = Refinement(more, &basis).passages(some);
+    }
+  }
+  return result;
+}
 
 // Depths up to the largest at which multipliers are counted, away from the passages.
 std::vector<double> depths_to_count_at(const std::vector<CirclePassage>& found, double largest_depth_m) {
@@ -151,16 +217,6 @@ std::vector<double> depths_to_count_at(const std::vector<CirclePassage>& found, 
     depths.push_back(best);
   }
   return depths;
-}
-
-// Polynomials, or nodes, on the longest arc.
-Eigen::Index longest_arc(const Collocation& collocation) {
-  Eigen::Index longest = 0;
-  for (const RowPolynomial& row : collocation.polynomials) longest = std::max(longest, row.degree + 1);
-  if (longest > 0) return longest;
-  for (const CollocationArc& arc : collocation.arcs)
-    longest = std::max(longest, static_cast<Eigen::Index>(arc.nodes.size()));
-  return longest;
 }
 
 int unstable_at(const std::vector<CirclePassage>& found, double depth_m) {
@@ -183,21 +239,44 @@ std::vector<const CirclePassage*> CirclePassages::boundaries() const {
   return result;
 }
 
-CirclePassages circle_passages(const TipStructure& structure, const Collocation& collocation, double period_s,
-                               double largest_depth_m) {
-  const CircleOperator whole = circle_operator(structure, collocation, period_s);
-  const Eigen::Index longest = longest_arc(collocation);
-  Refinement refinement(whole, root_weights(collocation));
+CirclePassages circle_passages(const CircleOperator& whole, double largest_depth_m) {
   CirclePassages result;
+  std::optional<Refinement> of_whole;
+  const bool large = whole.size() > kManyWhole;
+  if (!large) of_whole.emplace(whole);
+  const Eigen::Index longest = whole.most();
+  result.most = longest;
   auto most = static_cast<Eigen::Index>(kShareOfPoints * static_cast<double>(longest)) + kMorePolynomials;
   if (most < kLeastFew) most = longest;
-  for (int attempt = 0; attempt < kMostCounts; ++attempt, most += (longest - most + 1) / 2) {
-    const bool all = most >= longest;
-    const CircleOperator few = all ? whole : projected(whole, arc_polynomials(collocation, most));
-    CircleSearch search(few, largest_depth_m);
+  double share = kLeadingShare;
+  for (int attempt = 0; attempt < kMostCounts; ++attempt) {
+    const bool all = !large && most >= longest;
+    SearchSpace space;
+    if (large) {
+      space.basis = leading_basis(whole, share / largest_depth_m);
+      space.few = projected(whole, space.basis);
+    } else if (!all) {
+      space.few = chosen_rows(whole, whole.rows_of(most));
+    }
+    const CircleOperator& searched = all ? whole : space.few;
+    if (searched.size() == 0) {  // nothing acts strongly enough to limit
+      result.confirmed = true;
+      break;
+    }
+    CircleSearch search(searched, largest_depth_m);
     search.settle();
     for (int again = 1; all && again < attempt; ++again) search.refine();
-    result.found = refinement.passages(search.starts(), kLargestStep);
+    std::vector<Start> starts = search.starts();
+    if (const auto nearest = search.nearest()) starts.push_back(*nearest);
+    double margin = 0;  // of an eigenvalue's size: how wrong the search's may be
+    result.found = large ? passages_by_residuals(whole, space, starts, margin) : of_whole->passages(starts);
+    std::erase_if(result.found, [&](CirclePassage& passage) {
+      if (passage.seek != Seek::kValue) return false;
+      const double moved = std::abs(passage.value - search.nearest()->value) / std::abs(passage.value);
+      margin = std::max(margin, kMarginOfMove * moved);
+      result.nearest = std::move(passage);
+      return true;
+    });
     std::sort(result.found.begin(), result.found.end(),
               [](const CirclePassage& a, const CirclePassage& b) { return a.depth_m < b.depth_m; });
     const auto same = [](const CirclePassage& a, const CirclePassage& b) {
@@ -206,47 +285,44 @@ CirclePassages circle_passages(const TipStructure& structure, const Collocation&
     };
     result.found.erase(std::unique(result.found.begin(), result.found.end(), same), result.found.end());
 
-    double moved = 0;
-    if (const auto nearest = search.nearest()) {
-      for (CirclePassage& passage : refinement.passages({*nearest}, 0)) {
-        moved = std::abs(passage.value - nearest->value) / std::abs(passage.value);
-        result.nearest = std::move(passage);
-      }
-    }
     const std::vector<double> depths = depths_to_count_at(result.found, largest_depth_m);
     const auto as_found = [&](double depth, std::optional<int> count) {
       return count && *count == unstable_at(result.found, depth);
     };
-    // Of the whole operator at the largest depth; of the search's, which is cheap, at all.
+    // Of the whole operator at the largest depth, where that is small enough; of the search's, which is
+    // cheap, at all.
     std::optional<int> at_top;
-    if (all) at_top = search.count(depths.back());
-    if (!at_top) at_top = winding(refinement.lanes(), search.angles(), depths.back());
+    if (all || large) at_top = search.count(depths.back());
+    if (!at_top) {
+      CircleLanes of_searched(searched);
+      at_top = winding(large ? of_searched : of_whole->lanes(), search.angles(), depths.back());
+    }
     result.confirmed = as_found(depths.back(), at_top);
     for (const double depth : depths) {
       const std::optional<int> count = search.count(depth);
       result.confirmed = result.confirmed && (!count || as_found(depth, count));
     }
-    if (!all && search.touches(kMarginOfMove * moved)) {
-      most = longest;
-      continue;
-    }
-    if (result.confirmed) break;
+    const bool touches = !all && search.touches(margin);
+    if (result.confirmed && !touches) break;
+    share *= kSmallerShare;
+    most = touches ? longest : most + (longest - most + 1) / 2;
   }
   while (!result.found.empty() && result.found.back().depth_m > largest_depth_m) result.found.pop_back();
   return result;
 }
 
-double largest_change(const CirclePassages& passages, const CircleOperator& other) {
+double largest_change(const CirclePassages& passages, const CircleOperator& finer) {
   std::vector<const CirclePassage*> all = passages.boundaries();
   if (all.empty() && passages.nearest) all.push_back(&*passages.nearest);
-  std::vector<Start> starts;
-  for (const CirclePassage* passage : all) starts.push_back({passage->angle, passage->value, Seek::kValue});
-  Refinement there(other, Eigen::VectorXd::Ones(other.size()));
+  if (all.empty()) return 0;
+  const std::vector<Eigen::Index> rows = finer.rows_of(passages.most);
   double change = 0;
-  for (std::size_t first = 0; first < all.size(); first += CircleLanes::kPlaces) {
-    const EigenvalueLanes eigen = there.values_near(CircleLanes::eight_from(starts, first));
-    for (std::size_t i = 0; i < CircleLanes::kPlaces && first + i < all.size(); ++i)
-      change = std::max(change, std::abs((eigen.value[i] - all[first + i]->value) / all[first + i]->slope));
+  for (const CirclePassage* passage : all) {
+    EigenTriple triple{passage->angle, passage->value, Eigen::VectorXcd::Zero(finer.size()),
+                       Eigen::VectorXcd::Zero(finer.size())};
+    triple.right(rows) = passage->difference;
+    triple.left(rows) = passage->left;
+    change = std::max(change, std::abs((corrected_value(finer, triple) - passage->value) / passage->slope));
   }
   return change;
 }

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "milling/circle_lanes.h"
 #include "milling/circle_operator.h"
+#include "milling/circle_search.h"
 
 namespace stablecut::milling {
 
@@ -17,13 +17,15 @@ struct CirclePassage {
   double depth_m = 0;
   double angle = 0;  ///< of the multiplier
   bool outwards = true;
-  bool is_real = false;         ///< +1 or -1: passes alone
+  Seek seek = Seek::kAxis;      ///< what was sought; of a passage kAxis or kAtOne
   std::complex<double> value;   ///< the eigenvalue of M: 1 / depth
   std::complex<double> slope;   ///< its derivative by the angle
-  Eigen::VectorXcd difference;  ///< [rows] what the rows sense, to a factor
+  Eigen::VectorXcd difference;  ///< [rows] what the rows sense, to a factor: right eigenvector
+  Eigen::VectorXcd left;        ///< [rows] left eigenvector
 
+  bool is_real() const { return seek == Seek::kAtOne; }  ///< +1 or -1: passes alone
   /// Of the number of multipliers outside the circle.
-  int change() const { return (outwards ? 1 : -1) * (is_real ? 1 : 2); }
+  int change() const { return (outwards ? 1 : -1) * (is_real() ? 1 : 2); }
 };
 
 struct CirclePassages {
@@ -32,17 +34,17 @@ struct CirclePassages {
   bool confirmed = false;
   /// The eigenvalue of M on the circle that is nearest to a limit; none where M has none to speak of.
   std::optional<CirclePassage> nearest;
+  Eigen::Index most = 0;  ///< polynomials on the longest arc
 
   /// Those at which the cut becomes unstable (outwards) or stable again.
   std::vector<const CirclePassage*> boundaries() const;
 };
 
-/// All passages between depth 0 and the largest. `structure` stable.
-CirclePassages circle_passages(const TipStructure& structure, const Collocation& collocation, double period_s,
-                               double largest_depth_m);
+/// All passages between depth 0 and the largest, of a structure that is stable by itself.
+CirclePassages circle_passages(const CircleOperator& whole, double largest_depth_m);
 
 /// The largest change of the boundaries' multipliers when another operator of the same cut takes the place of
-/// theirs; of the nearest eigenvalue where there is no passage.
-double largest_change(const CirclePassages& passages, const CircleOperator& other);
+/// theirs, with more polynomials along the same arcs; of the nearest eigenvalue where there is no passage.
+double largest_change(const CirclePassages& passages, const CircleOperator& finer);
 
 }  // namespace stablecut::milling

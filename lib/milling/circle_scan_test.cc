@@ -6,10 +6,13 @@
 
 #include "base/range.h"
 #include "base/units.h"
+#include "milling/circle_lanes.h"
+#include "milling/circle_reduction.h"
 #include "milling/depth_scan.h"
 #include "milling/limits.h"
 #include "milling/milling_fixtures_test.h"
 #include "milling/spectral.h"
+#include "milling/tooth_arcs.h"
 
 using namespace stablecut;
 using namespace stablecut::milling;
@@ -54,8 +57,8 @@ TEST_CASE(
   for (unsigned seed = 0; seed < 40; ++seed) {
     const Cut cut = random_cut(seed);
     INFO("seed " << seed);
-    const CirclePassages passages =
-        circle_passages(cut.structure, cut.collocation(), cut.period_s(), cut.largest_depth_m);
+    const CirclePassages passages = circle_passages(
+        period_force(cut.structure, cut.collocation(), cut.period_s()).whole, cut.largest_depth_m);
     CHECK(passages.confirmed);
     const SpectralMap map(cut.structure, cut.cutter, cut.revolutions_per_s, cut.points);
     const auto scanned = DepthScan(map, cut.largest_depth_m).boundaries();
@@ -134,4 +137,80 @@ TEST_CASE("fewer polynomials than nodes have the limits of many, also beside a m
   }
   CHECK(limits >= 6);
   CHECK(without_ringing >= 2);
+}
+
+// Pieces and a map of the revolution know nothing of arcs and of what is felt over several periods. The last
+// one has arcs longer than its period, 70 and 50 degrees three times.
+TEST_CASE("limits of unequal pitches, from polynomials along each tooth's arc, are those of the period map") {
+  dynamics::ModalModel model = fixtures::oscillator({"x", "y"});
+  dynamics::Mode slow = model.modes[0];
+  slow.frequency_hz = 410;
+  slow.psi_l *= 922.0 / 410;
+  model.modes.push_back(slow);
+  const TipStructure structure = tip_structure(model);
+  int limits = 0;
+  for (const auto& [immersion, degrees, damping] : {std::tuple{0.2, std::vector<double>{170, 190}, 0.0},
+                                                    {1.0, {110, 120, 130}, 0.0},
+                                                    {0.2, {170, 190}, 5e4},
+                                                    {0.6, {70, 50, 70, 50, 70, 50}, 0.0}}) {
+    Cutter cutter = fixtures::benchmark_cutter(true, immersion, static_cast<int>(degrees.size()));
+    for (const double angle : degrees) cutter.pitch_rad.push_back(radians_from_degrees(angle));
+    cutter.diameter_m = 12e-3;
+    cutter.damping_n_per_m = damping;
+    cutter.damping_friction = 0.3;
+    for (const double speed : {90.0, 210.0}) {
+      INFO(degrees.size() << " teeth, " << immersion << ", " << speed << " rev/s");
+      const auto arcs = circle_limits(structure, cutter, speed, 4e-3);
+      REQUIRE(arcs);
+      const PreparedPeriod period = prepare_period(structure, cutter, speed, {}, 4e-3);
+      const auto scanned =
+          scanned_crossings(DepthScan(*period.map, 4e-3), *period.map, cutter.tooth_period_s(speed));
+      REQUIRE(arcs->crossings.size() == scanned.size());
+      for (std::size_t i = 0; i < scanned.size(); ++i, ++limits) {
+        // Multipliers are right to 3e-7.
+        CHECK(std::abs(arcs->crossings[i].depth_m - scanned[i].depth_m) < 1e-6 * 4e-3);
+        CHECK(arcs->crossings[i].kind == scanned[i].kind);
+        CHECK(arcs->crossings[i].chatter_frequency_hz ==
+              Approx(scanned[i].chatter_frequency_hz).epsilon(1e-5));
+      }
+    }
+  }
+  CHECK(limits >= 8);
+}
+
+TEST_CASE(
+    "eigenvalues of an operator between its leading vectors are its own, to the square of what is left out") {
+  const TipStructure structure = tip_structure(fixtures::coupled_modes(6, 3));
+  Cutter cutter = fixtures::benchmark_cutter(true, 1, 3);
+  for (const double angle : {100.0, 120.0, 140.0}) cutter.pitch_rad.push_back(radians_from_degrees(angle));
+  const CircleOperator whole = tooth_arc_force(structure, tooth_arcs(cutter, 200), 200, 14).whole;
+  const double least = 1 / 0.2e-3;
+  const auto largest = [](const CircleOperator& of, double angle) {
+    const Eigen::MatrixXcd one = Eigen::MatrixXcd::Identity(of.size(), of.size());
+    const Eigen::VectorXcd all =
+        Eigen::ComplexEigenSolver<Eigen::MatrixXcd>(of.times(angle, one), false).eigenvalues();
+    Eigen::Index at = 0;
+    all.cwiseAbs().maxCoeff(&at);
+    return all[at];
+  };
+  for (const double share : {1.0, 0.3}) {
+    const Eigen::MatrixXd basis = leading_basis(whole, share * least);
+    CHECK(basis.cols() < whole.size());
+    const CircleOperator few = projected(whole, basis);
+    for (const double angle : {0.3, 1.0, 2.0, 3.0})
+      CHECK(std::abs(largest(few, angle) - largest(whole, angle)) < share * share * least);
+  }
+  // The adjoint, and the operator in lanes.
+  CircleLanes lanes(whole);
+  lanes.form({0.3, 0.3, 0.3, 0.3, 1.0, 1.0, 2.0, 3.0});
+  const std::complex<double> value = largest(whole, 2.0);
+  const EigenvalueLanes refined = lanes.refined({value, value, value, value, value, value, value, value});
+  CHECK(std::abs(refined.value[6] - value) < 1e-9 * std::abs(value));
+  const Eigen::VectorXcd right = lanes.right(6), left = lanes.left(6);
+  CHECK((whole.times(2.0, right) - value * right).norm() < 1e-8 * std::abs(value) * right.norm());
+  CHECK((whole.adjoint_times(2.0, left) - std::conj(value) * left).norm() <
+        1e-8 * std::abs(value) * left.norm());
+  const double step = 1e-5;
+  const std::complex<double> slope = (largest(whole, 2.0 + step) - largest(whole, 2.0 - step)) / (2 * step);
+  CHECK(std::abs(refined.slope[6] - slope) < 1e-6 * std::abs(slope));
 }

@@ -101,7 +101,7 @@ class Builder {
         if (piece.damping) add_rows(piece.damping(turn), true);
       }
       placed.end_node = result_.nodes.size();
-      add_to_arc(piece, placed);
+      add_arc(placed);
       placed.end_row = row_count();
       pieces_.push_back(placed);
     }
@@ -181,20 +181,13 @@ class Builder {
     return rules_.size() - 1;
   }
 
-  void add_to_arc(const CutPiece& piece, const PlacedPiece& placed) {
-    const bool own = piece.arc_rad == 0;
-    const std::size_t index = own ? pieces_.size() : piece.arc;
-    if (result_.arcs.size() <= index) result_.arcs.resize(index + 1);
-    CollocationArc& arc = result_.arcs[index];
-    ++arc.pieces;
-    const numerics::GaussRule& rule = rules_[placed.rule].rule;
+  void add_arc(const PlacedPiece& placed) {
+    CollocationArc arc;
     for (std::size_t node = placed.first_node; node < placed.end_node; ++node) {
-      const double along =
-          piece.along_rad +
-          (rule.node[static_cast<Eigen::Index>(node - placed.first_node)] + 1) / 2 * length_of(piece);
       arc.nodes.push_back(node);
-      arc.place.push_back(2 * along / (own ? length_of(piece) : piece.arc_rad) - 1);
+      arc.place.push_back(rules_[placed.rule].rule.node[static_cast<Eigen::Index>(node - placed.first_node)]);
     }
+    result_.arcs.push_back(std::move(arc));
   }
 
   // Rows of the last node.
@@ -305,8 +298,7 @@ Collocation collocate(const TipStructure& structure, const CutSchedule& schedule
                       int points, Rows rows) {
   bool along = rows == Rows::kByPolynomial && schedule.passes == 1;
   for (std::size_t p = 0; p < schedule.pieces.size(); ++p)
-    along = along && schedule.pieces[p].cut_by == p && schedule.pieces[p].in_period_before &&
-            schedule.pieces[p].arc_rad == 0;
+    along = along && schedule.pieces[p].cut_by == p && schedule.pieces[p].in_period_before;
   int nodes = points;
   if (along) {
     const double fastest = structure.lambda.imag().cwiseAbs().maxCoeff();

@@ -42,9 +42,8 @@ struct RowPolynomial {
   Eigen::Index degree = 0;
 };
 
-/// Consecutive pieces over which the force is the same tooth's, or the same teeth's, and bends only weakly.
+/// A piece, over which the force is smooth.
 struct CollocationArc {
-  int pieces = 0;
   std::vector<std::size_t> nodes;
   std::vector<double> place;  ///< of each node, in [-1, 1] from the arc's beginning to its end
 };

@@ -157,12 +157,17 @@ std::vector<double> repeated(const std::vector<double>& pitch) {
   return pitch;
 }
 
+// Angle of each tooth behind the first.
+std::vector<double> angles_behind(const std::vector<double>& pitch) {
+  std::vector<double> behind = {0};
+  for (std::size_t j = 0; j + 1 < pitch.size(); ++j) behind.push_back(behind.back() + pitch[j]);
+  return behind;
+}
+
 CutSchedule schedule_of_unequal_pitch(const Pass& pass) {
-  const std::vector<double> pitch = repeated(pass.cutter.pitch_rad);
+  const std::vector<double> pitch = repeated(pass.cutter.pitch_rad), behind = angles_behind(pitch);
   const std::size_t teeth = pitch.size();
   const double period = std::accumulate(pitch.begin(), pitch.end(), 0.0);
-  std::vector<double> behind = {0};  // angle of each tooth behind the first
-  for (std::size_t j = 0; j + 1 < teeth; ++j) behind.push_back(behind.back() + pitch[j]);
 
   // Tip angles at which this tooth or any other enters or leaves. The pieces of all teeth end at the same tip
   // angles, so that each has a piece of the tooth before that cut its surface.
@@ -190,9 +195,6 @@ CutSchedule schedule_of_unequal_pitch(const Pass& pass) {
       CutPiece piece = pass.piece(from, from + ends[b + 1] - ends[b], {ends[b] - from});
       piece.cut_by = before * own + b;
       piece.in_period_before = from - pitch[before] < -kSameAngle;
-      piece.arc = j;
-      piece.arc_rad = ends.back() - ends.front();
-      piece.along_rad = ends[b] - ends.front();
       schedule.pieces.push_back(std::move(piece));
     }
   }
@@ -216,6 +218,20 @@ void set_immersion(Cutter& cutter, bool up_milling, double radial_immersion) {
 CutSchedule cut_schedule(const Cutter& cutter, double revolutions_per_s, double depth_m) {
   const Pass pass(cutter, revolutions_per_s, depth_m);
   return cutter.equal_pitch() ? schedule_of_equal_pitch(pass) : schedule_of_unequal_pitch(pass);
+}
+
+CutSchedule tooth_arcs(const Cutter& cutter, double revolutions_per_s) {
+  const Pass pass(cutter, revolutions_per_s, 0);
+  const std::vector<double> pitch = repeated(cutter.pitch_rad), behind = angles_behind(pitch);
+  const double length = pass.last_rad - pass.first_rad;
+  CutSchedule schedule{std::accumulate(pitch.begin(), pitch.end(), 0.0), static_cast<int>(pitch.size()), {}};
+  for (std::size_t j = 0; j < pitch.size(); ++j) {
+    CutPiece arc = pass.piece(behind[j], behind[j] + length, {pass.first_rad - behind[j]});
+    arc.cut_by = (j + pitch.size() - 1) % pitch.size();
+    arc.in_period_before = j == 0;
+    schedule.pieces.push_back(std::move(arc));
+  }
+  return schedule;
 }
 
 Eigen::Matrix2d mean_directional_coefficients(const Cutter& cutter, double from_rad, double to_rad) {

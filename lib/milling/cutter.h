@@ -58,10 +58,6 @@ struct CutPiece {
   std::function<DirectionalFactors(double turn_rad)> damping;
   std::size_t cut_by = 0;        ///< index of the piece that cut this one's surface, of the same length
   bool in_period_before = true;  ///< whether it did so in the period before this one
-  /// The arc that it is a part of, one tooth's way through the cut (unequal pitch): its index, its length,
-  /// and how far along it the piece begins. Length 0: the piece is an arc by itself.
-  std::size_t arc = 0;
-  double arc_rad = 0, along_rad = 0;
 };
 
 struct CutSchedule {
@@ -76,6 +72,11 @@ struct CutSchedule {
 /// of its own, which end also where another tooth enters or leaves while this one, or the one before it,
 /// cuts.
 CutSchedule cut_schedule(const Cutter& cutter, double revolutions_per_s, double depth_m);
+
+/// With unequal pitches the way of each tooth through the cut in one piece, whether or not others enter and
+/// leave meanwhile, from where it enters in the period; it may end in the next one. Straight teeth. In the
+/// order of the teeth, which is that of the beginnings: the first one's surface was cut in the period before.
+CutSchedule tooth_arcs(const Cutter& cutter, double revolutions_per_s);
 
 /// The exact mean of A while tooth 1 turns through the angles [from, to], for straight teeth of equal pitch
 /// [RobotMillingThesis, eq. 6-29]. Teeth may enter or leave in between. N/m2.

@@ -9,6 +9,7 @@
 #include "milling/circle_scan.h"
 #include "milling/semi_discretization.h"
 #include "milling/spectral.h"
+#include "milling/tooth_arcs.h"
 
 namespace stablecut::milling {
 namespace {
@@ -22,9 +23,11 @@ constexpr double kWholeWave = 1e-6;
 // Operators of more rows than kManyRows, and of more than kLongCut times the structure's state, are left to
 // the depth scan, whose leading eigenvalues cost less there.
 constexpr Eigen::Index kManyRows = 96, kLongCut = 2;
-// Pieces of unequal pitch have so many rows that the depth scan costs less from here on.
-constexpr Eigen::Index kManyRowsByTooth = 48;
-
+// The same for unequal pitches, where the scan has many times their rows.
+constexpr Eigen::Index kManyRowsByTooth = 160;
+// Order in which the error of polynomials along an arc falls where other teeth enter or leave meanwhile, and
+// the largest step that is taken by it.
+constexpr double kOrderByTooth = 7, kLargestGrowth = 1.5;
 void describe(const Chatter& chatter, const TipStructure& structure, double tooth_period_s,
               StabilityCrossing& crossing) {
   crossing.kind = chatter.kind;
@@ -42,32 +45,38 @@ class StraightCut {
       : structure_(structure),
         revolutions_per_s_(revolutions_per_s),
         tooth_period_s_(cutter.tooth_period_s(revolutions_per_s)),
-        schedule_(cut_schedule(cutter, revolutions_per_s, 0)),
+        by_tooth_(!cutter.equal_pitch()),
+        schedule_(by_tooth_ ? tooth_arcs(cutter, revolutions_per_s)
+                            : cut_schedule(cutter, revolutions_per_s, 0)),
         period_s_(schedule_.period_rad / (kTwoPi * revolutions_per_s)) {}
 
-  Collocation collocation(int points) const {
-    return collocate(structure_, schedule_, revolutions_per_s_, points);
+  PeriodForce force(int polynomials) const {
+    if (by_tooth_) return tooth_arc_force(structure_, schedule_, revolutions_per_s_, polynomials);
+    return period_force(structure_, collocate(structure_, schedule_, revolutions_per_s_, polynomials),
+                        period_s_);
   }
-  bool suits_the_circle(const Collocation& c) const {
-    const auto rows = static_cast<Eigen::Index>(c.rows.size());
-    if (schedule_.passes > 1 && rows > kManyRowsByTooth) return false;
-    return rows <= std::max(kManyRows, kLongCut * 2 * structure_.modes());
+  bool suits_the_circle(const PeriodForce& force) const {
+    if (by_tooth_) return force.whole.size() <= kManyRowsByTooth;
+    return force.whole.size() <= std::max(kManyRows, kLongCut * 2 * structure_.modes());
   }
-  CirclePassages passages(const Collocation& c, double largest_depth_m) const {
-    return circle_passages(structure_, c, period_s_, largest_depth_m);
-  }
-  CircleOperator whole(const Collocation& c) const { return circle_operator(structure_, c, period_s_); }
 
-  std::vector<StabilityCrossing> crossings(const CirclePassages& passages, const Collocation& c) const {
+  // Polynomials to try after some whose error was so many times the wanted one.
+  int points_after(int points, double excess) const {
+    const double growth = by_tooth_ ? std::min(kLargestGrowth, std::pow(excess, 1 / kOrderByTooth)) : 1;
+    return std::max(more_points(points), static_cast<int>(growth * points));
+  }
+
+  std::vector<StabilityCrossing> crossings(const CirclePassages& passages, const PeriodForce& force) const {
     std::vector<StabilityCrossing> result;
     for (const CirclePassage* passage : passages.boundaries()) {
       StabilityCrossing crossing;
       crossing.depth_m = passage->depth_m;
       crossing.unstable_above = passage->outwards;
-      const std::vector<ForceImpulse> forces = forces_of(c, passage->difference);
-      const Complex multiplier =
-          passage->is_real ? Complex(passage->angle > kPi / 2 ? -1.0 : 1.0) : std::polar(1.0, passage->angle);
-      describe(chatter_of(structure_, period_s_, multiplier, forces), structure_, tooth_period_s_, crossing);
+      const Eigen::VectorXcd numbers = force.lift * passage->difference;
+      const Complex multiplier = passage->is_real() ? Complex(passage->angle > kPi / 2 ? -1.0 : 1.0)
+                                                    : std::polar(1.0, passage->angle);
+      describe(chatter_of(structure_, period_s_, multiplier, forces_of(force.nodes, numbers)), structure_,
+               tooth_period_s_, crossing);
       result.push_back(crossing);
     }
     return result;
@@ -76,6 +85,7 @@ class StraightCut {
  private:
   const TipStructure& structure_;
   double revolutions_per_s_, tooth_period_s_;
+  bool by_tooth_;
   CutSchedule schedule_;
   double period_s_;
 };
@@ -90,23 +100,23 @@ std::optional<SpeedLimits> circle_limits(const TipStructure& structure, const Cu
                                          double revolutions_per_s, double largest_depth_m) {
   if (!is_straight_and_stable(structure, cutter)) return std::nullopt;
   const StraightCut cut(structure, cutter, revolutions_per_s);
-  const PointPlan plan = point_plan(structure, cutter, revolutions_per_s, largest_depth_m);
-  int points = plan.first;
-  Collocation here = cut.collocation(points);
+  PointPlan plan = point_plan(structure, cutter, revolutions_per_s, largest_depth_m);
+  if (!cutter.equal_pitch()) plan = plan_by_tooth(structure, cutter, revolutions_per_s);
   SpeedLimits limits;
   limits.error = std::numeric_limits<double>::infinity();
-  for (;;) {
-    if (!cut.suits_the_circle(here)) return std::nullopt;
-    const CirclePassages passages = cut.passages(here, largest_depth_m);
-    if (!passages.confirmed) return std::nullopt;
+  for (int points = plan.first;;) {
     const int finer = more_points(points);
-    Collocation fine = cut.collocation(finer);
-    const double error = largest_change(passages, cut.whole(fine));
+    const PeriodForce all = cut.force(finer), here = with_fewer(all, points);
+    if (!cut.suits_the_circle(here)) return std::nullopt;
+    const CirclePassages passages = circle_passages(here.whole, largest_depth_m);
+    if (!passages.confirmed) return std::nullopt;
+    const double error = largest_change(passages, all.whole);
     const bool better = error < limits.error;
     if (better) limits = {cut.crossings(passages, here), error, points};
     if (!better || error <= plan.wanted || finer > plan.most) break;
-    points = finer;
-    here = std::move(fine);
+    // With modes without mass a tooth's entry bends the motion of the others so sharply that polynomials
+    // along their whole way through the cut converge slowly.
+    points = cut.points_after(points, error / plan.wanted);
   }
   refuse_useless(revolutions_per_s, limits.error);
   return limits;
@@ -130,10 +140,14 @@ std::vector<StabilityCrossing> crossings_at(const TipStructure& structure, const
                                             double revolutions_per_s, double largest_depth_m, int points) {
   if (is_straight_and_stable(structure, cutter)) {
     const StraightCut cut(structure, cutter, revolutions_per_s);
-    const Collocation c = cut.collocation(points);
-    if (cut.suits_the_circle(c)) {
-      const CirclePassages passages = cut.passages(c, largest_depth_m);
-      if (passages.confirmed) return cut.crossings(passages, c);
+    // What is known of an unequal pitch may come from a scan, which has fewer points on shorter pieces.
+    const int polynomials = cutter.equal_pitch()
+                                ? points
+                                : std::max(points, plan_by_tooth(structure, cutter, revolutions_per_s).first);
+    const PeriodForce force = cut.force(polynomials);
+    if (cut.suits_the_circle(force)) {
+      const CirclePassages passages = circle_passages(force.whole, largest_depth_m);
+      if (passages.confirmed) return cut.crossings(passages, force);
     }
   }
   const SpectralMap map(structure, cutter, revolutions_per_s, points);

@@ -31,6 +31,13 @@ struct Column {
 // more points than the limits.
 std::vector<double> grid_of(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
                             const std::vector<double>& depths_m, SpeedLimits& limits) {
+  if (!cutter.equal_pitch()) {
+    // The limits' polynomials say nothing about the points of a map.
+    const PreparedPeriod period = prepare_period(structure, cutter, revolutions_per_s, {}, depths_m.back());
+    const DepthScan scan(*period.map, depths_m.back());
+    limits.error = std::max({limits.error, period.error, scan.error_against(*period.map)});
+    return scan.spectral_radii(depths_m);
+  }
   const PointPlan plan = point_plan(structure, cutter, revolutions_per_s, depths_m.back());
   const double wanted = plan.follows_all ? kGridError : kGridErrorOutOfReach;
   int points = more_points(limits.resolution);

@@ -26,6 +26,8 @@ constexpr double kConvergedByTooth = 3e-7;
 // The same where modes are out of reach: their ringing after each entry is left out.
 constexpr double kConvergedOutOfReach = 1e-5;
 constexpr int kMostPointsByTooth = 60;
+// More where other teeth enter or leave while one cuts, at places that are no ends of its arc.
+constexpr double kMoreTogether = 2;
 // An error from which on there is no answer.
 constexpr double kUseless = 0.01;
 // Points to begin with: so many, and so many for each radian that the fastest mode turns in half a piece.
@@ -142,6 +144,16 @@ PointPlan point_plan(const TipStructure& structure, const Cutter& cutter, double
   const bool all = follow >= fastest;
   return {static_cast<int>(kFirstPoints + half_turn_of(follow, schedule, revolutions_per_s)), kMostPoints,
           all ? kConverged : kConvergedOutOfReach, all};
+}
+
+PointPlan plan_by_tooth(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s) {
+  const CutSchedule arcs = tooth_arcs(cutter, revolutions_per_s);
+  const double fastest = structure.lambda.imag().cwiseAbs().maxCoeff();
+  const bool together = cutter.exit_rad - cutter.entry_rad >
+                        *std::min_element(cutter.pitch_rad.begin(), cutter.pitch_rad.end());
+  const double first = kFirstPoints + (together ? kMoreTogether : 0);
+  return {static_cast<int>(first + half_turn_of(fastest, arcs, revolutions_per_s)), kMostPoints,
+          kConvergedByTooth};
 }
 
 int more_points(int points) { return points + std::max(kLeastAdded, points / kPointsForOne); }

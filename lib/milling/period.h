@@ -46,6 +46,8 @@ struct PointPlan {
 /// For depths up to `largest_depth_m`. Throws NoAnswer where the fastest mode turns too often to be followed.
 PointPlan point_plan(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
                      double largest_depth_m);
+/// The same for polynomials along each tooth's way through the cut, with unequal pitches.
+PointPlan plan_by_tooth(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s);
 /// The number of points to try after `points`.
 int more_points(int points);
 

@@ -82,13 +82,13 @@ std::vector<ForceImpulse> SpectralMap::forces(double depth_m, Complex, const Eig
   const Collocation helical = fixed_ ? Collocation{} : at_depth(depth_m);
   const Collocation& c = fixed_ ? *fixed_ : helical;
   const Eigen::VectorXcd sensed = differences(c, depth_m, structure().displacement_scale_m) * state;
-  return forces_of(c, sensed);
+  return forces_of(c.nodes, at_nodes(c, sensed));
 }
 
-std::vector<ForceImpulse> forces_of(const Collocation& collocation, const Eigen::VectorXcd& sensed) {
-  const Eigen::VectorXcd numbers = at_nodes(collocation, sensed);
+std::vector<ForceImpulse> forces_of(const std::vector<CollocationNode>& nodes,
+                                    const Eigen::VectorXcd& numbers) {
   std::vector<ForceImpulse> result;
-  for (const CollocationNode& node : collocation.nodes) {
+  for (const CollocationNode& node : nodes) {
     result.push_back(
         {node.time_s, node.weight_s * (node.drive * numbers.segment(node.first_row, node.drive.cols()))});
   }

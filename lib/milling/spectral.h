@@ -38,7 +38,8 @@ class SpectralMap : public PeriodMap {
   std::optional<Collocation> fixed_;  // none with helical teeth
 };
 
-/// The forces over a period, from what the collocation's rows sense.
-std::vector<ForceImpulse> forces_of(const Collocation& collocation, const Eigen::VectorXcd& sensed);
+/// The forces over a period, from what is sensed at the nodes.
+std::vector<ForceImpulse> forces_of(const std::vector<CollocationNode>& nodes,
+                                    const Eigen::VectorXcd& numbers);
 
 }  // namespace stablecut::milling
