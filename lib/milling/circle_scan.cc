@@ -37,6 +37,8 @@ constexpr double kLeadingShare = 0.7, kSmallerShare = 0.25;
 // How often what vectors lack is added to that space, until it changes eigenvalues by less than this share.
 constexpr int kMostEnrichments = 5;
 constexpr double kResolved = 1e-9;
+// Changes of a multiplier up to which passages are carried over to a finer operator.
+constexpr double kCarried = 1e-5;
 // Radians that a determinant's phase may change from place to place, and places at which that is given up.
 constexpr double kMostTurnOfWhole = 1;
 constexpr std::size_t kMostPlacesOfWhole = 6000;
@@ -311,18 +313,29 @@ CirclePassages circle_passages(const CircleOperator& whole, double largest_depth
   return result;
 }
 
-double largest_change(const CirclePassages& passages, const CircleOperator& finer) {
-  std::vector<const CirclePassage*> all = passages.boundaries();
-  if (all.empty() && passages.nearest) all.push_back(&*passages.nearest);
-  if (all.empty()) return 0;
+double carried_over(CirclePassages& passages, const CircleOperator& finer) {
+  std::vector<const CirclePassage*> judged = passages.boundaries();
+  if (judged.empty() && passages.nearest) judged.push_back(&*passages.nearest);
   const std::vector<Eigen::Index> rows = finer.rows_of(passages.most);
-  double change = 0;
-  for (const CirclePassage* passage : all) {
-    EigenTriple triple{passage->angle, passage->value, Eigen::VectorXcd::Zero(finer.size()),
+  const auto value_there = [&](const CirclePassage& passage) {
+    EigenTriple triple{passage.angle, passage.value, Eigen::VectorXcd::Zero(finer.size()),
                        Eigen::VectorXcd::Zero(finer.size())};
-    triple.right(rows) = passage->difference;
-    triple.left(rows) = passage->left;
-    change = std::max(change, std::abs((corrected_value(finer, triple) - passage->value) / passage->slope));
+    triple.right(rows) = passage.difference;
+    triple.left(rows) = passage.left;
+    return corrected_value(finer, triple);
+  };
+  double change = 0;
+  for (const CirclePassage* passage : judged)
+    change = std::max(change, std::abs((value_there(*passage) - passage->value) / passage->slope));
+  if (change > kCarried) return change;
+  for (CirclePassage& passage : passages.found) {
+    // One step of Newton's method; where the eigenvalue nearly touches the axis it would be a wild one.
+    const Complex value = value_there(passage);
+    const double step = passage.is_real() ? 0 : -value.imag() / passage.slope.imag();
+    if (!(std::abs(step) < kCarried)) continue;
+    passage.angle = std::clamp(passage.angle + step, 0.0, kPi);
+    passage.value = value + step * passage.slope;
+    passage.depth_m = 1 / passage.value.real();
   }
   return change;
 }

@@ -43,8 +43,9 @@ struct CirclePassages {
 /// All passages between depth 0 and the largest, of a structure that is stable by itself.
 CirclePassages circle_passages(const CircleOperator& whole, double largest_depth_m);
 
-/// The largest change of the boundaries' multipliers when another operator of the same cut takes the place of
-/// theirs, with more polynomials along the same arcs; of the nearest eigenvalue where there is no passage.
-double largest_change(const CirclePassages& passages, const CircleOperator& finer);
+/// Carries passages over to an operator of the same cut with more polynomials along the same arcs, where they
+/// are near. The largest change of the boundaries' multipliers thereby; of the nearest eigenvalue where there
+/// is no passage.
+double carried_over(CirclePassages& passages, const CircleOperator& finer);
 
 }  // namespace stablecut::milling

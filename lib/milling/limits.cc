@@ -108,9 +108,9 @@ std::optional<SpeedLimits> circle_limits(const TipStructure& structure, const Cu
     const int finer = more_points(points);
     const PeriodForce all = cut.force(finer), here = with_fewer(all, points);
     if (!cut.suits_the_circle(here)) return std::nullopt;
-    const CirclePassages passages = circle_passages(here.whole, largest_depth_m);
+    CirclePassages passages = circle_passages(here.whole, largest_depth_m);
     if (!passages.confirmed) return std::nullopt;
-    const double error = largest_change(passages, all.whole);
+    const double error = carried_over(passages, all.whole);
     const bool better = error < limits.error;
     if (better) limits = {cut.crossings(passages, here), error, points};
     if (!better || error <= plan.wanted || finer > plan.most) break;
