@@ -1,6 +1,8 @@
 #include "milling/circle_curves.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace stablecut::milling {
@@ -19,6 +21,8 @@ constexpr double kSurely = 10;
 constexpr int kBetween = 8, kBisections = 50;
 // Share of `least` below which a curve cannot reach the axis beyond it.
 constexpr double kOutOfReach = 0.9;
+// Share of its size within which an eigenvalue touches the axis.
+constexpr double kTouch = 3e-3;
 
 // A branch over a stretch of angle, in s from 0 to 1.
 struct Curve {
@@ -42,6 +46,40 @@ struct Curve {
   // How much of the error there may be at s.
   double bump(double s) const { return 16 * s * s * (1 - s) * (1 - s); }
 };
+
+// Where the imaginary part of a curve is least or greatest: s, and its second derivative by s. There the
+// curve may touch the axis, or cross it twice however narrowly.
+struct Extremum {
+  double s = 0, curvature = 0;
+};
+struct Extrema {
+  std::array<Extremum, 2> at;
+  std::size_t count = 0;
+};
+
+Extrema extrema_of(const Curve& c) {
+  // Im z = (...) + b s + c2 s^2 + c3 s^3.
+  const double step = c.to.imag() - c.from.imag();
+  double b = c.slope_from.imag(), c2 = step - b, c3 = 0;
+  if (c.cubic) {
+    c2 = 3 * step - 2 * c.slope_from.imag() - c.slope_to.imag();
+    c3 = c.slope_from.imag() + c.slope_to.imag() - 2 * step;
+  } else if (c.slope_at_end) {
+    b = 2 * step - c.slope_to.imag();
+    c2 = c.slope_to.imag() - step;
+  }
+  Extrema extrema;
+  const auto add = [&](double s) {
+    if (s > 0 && s < 1) extrema.at[extrema.count++] = {s, 2 * c2 + 6 * c3 * s};
+  };
+  // Roots of b + 2 c2 s + 3 c3 s^2, without cancellation; a c3 of 0 leaves the second.
+  const double discriminant = c2 * c2 - 3 * c3 * b;
+  if (!(discriminant >= 0)) return extrema;
+  const double sum = -(c2 + std::copysign(std::sqrt(discriminant), c2));
+  if (c3 != 0) add(sum / (3 * c3));
+  if (sum != 0) add(b / sum);
+  return extrema;
+}
 
 Curve curve_between(const Place& a, std::size_t i, const Place& b, std::size_t j) {
   const double stretch = b.angle - a.angle;
@@ -107,17 +145,33 @@ double zero_between(const Curve& c, double low, double high) {
   return (low + high) / 2;
 }
 
+// Where the curve is looked at (s): at equal distances, and at its extrema.
+struct Looks {
+  std::array<double, kBetween + 3> s;
+  std::size_t count = 0;
+};
+
+Looks places_to_look(const Extrema& extrema) {
+  Looks looks;
+  for (int i = 0; i <= kBetween; ++i) looks.s[looks.count++] = static_cast<double>(i) / kBetween;
+  if (extrema.count == 0) return looks;
+  for (std::size_t i = 0; i < extrema.count; ++i) looks.s[looks.count++] = extrema.at[i].s;
+  std::sort(looks.s.begin(), looks.s.begin() + looks.count);
+  return looks;
+}
+
 // Whether it is clear where the curve crosses the positive real axis beyond `least`, and the places (s).
-bool clear_crossings(const Curve& c, double least, std::vector<Crossing>& found) {
+bool clear_crossings(const Curve& c, const Extrema& extrema, double least, std::vector<Crossing>& found) {
+  const Looks looks = places_to_look(extrema);
   Side last = Side::kUncertain;
   double last_s = 0;
   int uncertain = 0;  // points since the last one whose side is certain
-  for (int i = 0; i <= kBetween; ++i) {
-    const double s = static_cast<double>(i) / kBetween;
+  for (std::size_t i = 0; i < looks.count; ++i) {
+    const double s = looks.s[i];
     const Side side = side_of(c, s, least);
     if (side == Side::kUncertain) {
       // Ends lie exactly where they are; on the axis only where the multiplier is real.
-      if (i > 0 && i < kBetween) ++uncertain;
+      if (i > 0 && i + 1 < looks.count) ++uncertain;
       continue;
     }
     const bool crosses =
@@ -143,16 +197,26 @@ bool matters(Complex value, double least) {
   return size >= kSmall * least && value.real() >= kSector * size;
 }
 
-bool clear_between(const Place& place, const Place& next, double least, double margin,
-                   std::vector<Crossing>& crossings) {
+bool nearly_real(Complex value) { return std::abs(value.imag()) < kTouch * value.real(); }
+
+bool nearly_one(double mean, double square) { return std::abs(square) < kTouch * mean * mean; }
+
+bool clear_between(const Place& place, const Place& next, double least, double margin, Passing& passing) {
   const std::vector<Pairing> pairs = pairings(place, next);
   std::vector<std::vector<Crossing>> found(pairs.size());
+  const double stretch = next.angle - place.angle;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     Curve curve = curve_between(place, pairs[k].from, next, pairs[k].to);
     curve.margin = margin;
-    if (!clear_crossings(curve, least, found[k])) return false;
-    for (const auto& [s, value] : found[k])
-      crossings.push_back({place.angle + s * (next.angle - place.angle), value});
+    const Extrema extrema = extrema_of(curve);
+    if (!clear_crossings(curve, extrema, least, found[k])) return false;
+    for (const auto& [s, value] : found[k]) passing.crossings.push_back({place.angle + s * stretch, value});
+    for (std::size_t i = 0; i < extrema.count; ++i) {
+      const auto& [s, curvature] = extrema.at[i];
+      const Complex value = curve.at(s);
+      if (value.real() >= kOutOfReach * least && nearly_real(value))
+        passing.touches.push_back({place.angle + s * stretch, value, curvature / (stretch * stretch)});
+    }
   }
   // Where two branches might as well go to each other's ends, and would cross the axis otherwise.
   for (std::size_t k = 0; k < pairs.size(); ++k) {
@@ -161,7 +225,8 @@ bool clear_between(const Place& place, const Place& next, double least, double m
                   other = curve_between(place, pairs[l].from, next, pairs[k].to);
       if (one.error + other.error > kSurely * (pairs[k].error + pairs[l].error)) continue;
       std::vector<Crossing> swapped;
-      const bool clear = clear_crossings(one, least, swapped) && clear_crossings(other, least, swapped);
+      const bool clear = clear_crossings(one, extrema_of(one), least, swapped) &&
+                         clear_crossings(other, extrema_of(other), least, swapped);
       if (!clear || swapped.size() != found[k].size() + found[l].size()) return false;
     }
   }

@@ -20,13 +20,26 @@ struct Crossing {
   std::complex<double> value;
 };
 
+/// Where the imaginary part of an eigenvalue is least or greatest, and nearly 0.
+struct Touch {
+  double angle = 0;
+  std::complex<double> value;
+  double curvature = 0;  ///< second derivative of the imaginary part by the angle
+};
+
+/// What an eigenvalue does at the positive real axis between two places.
+struct Passing {
+  std::vector<Crossing> crossings;
+  std::vector<Touch> touches;
+};
+
 /// An angle of the unit circle with all eigenvalues there.
 struct Place {
   double angle = 0;
   std::vector<Branch> branches;
-  /// The stretch to the next place has been looked at, and what crosses the positive real axis in it.
+  /// The stretch to the next place has been looked at, and what is at the positive real axis in it.
   bool settled = false;
-  std::vector<Crossing> crossings;
+  Passing passing;
 };
 
 /// The modulus, without the care for overflow that std::abs takes.
@@ -36,9 +49,14 @@ inline double size_of(std::complex<double> z) { return std::sqrt(std::norm(z)); 
 /// price.
 bool matters(std::complex<double> value, double least);
 
-/// Whether it is clear what crosses the positive real axis beyond `least` between two places, and what does.
-/// Eigenvalues may be wrong by `margin` times their size.
-bool clear_between(const Place& place, const Place& next, double least, double margin,
-                   std::vector<Crossing>& crossings);
+/// Whether an eigenvalue is so near the positive real axis that another operator of the same cut may have it
+/// on the other side.
+bool nearly_real(std::complex<double> value);
+/// The same of two eigenvalues mean +- sqrt(square) of a real operator, which are real or conjugate.
+bool nearly_one(double mean, double square);
+
+/// Whether it is clear what crosses the positive real axis beyond `least` between two places, and what does
+/// or touches it. Eigenvalues may be wrong by `margin` times their size.
+bool clear_between(const Place& place, const Place& next, double least, double margin, Passing& passing);
 
 }  // namespace stablecut::milling

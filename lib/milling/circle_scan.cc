@@ -8,18 +8,17 @@
 #include "milling/circle_lanes.h"
 #include "milling/circle_reduction.h"
 #include "milling/circle_search.h"
+#include "milling/circle_touches.h"
 
 namespace stablecut::milling {
 namespace {
 
 using Complex = std::complex<double>;
 
-// Newton's method on the whole operator: steps, radians of one, the imaginary part where it ends (of the
-// size), and how near an eigenvalue is to the step's before where only that is wanted.
+// Newton's method on the whole operator: steps, radians of one, and how near an eigenvalue is to the step's
+// before where only that is wanted.
 constexpr int kMostSteps = 8;
-constexpr double kLargestStep = kPi / 24, kOnAxis = 1e-11, kSameValue = 1e-6;
-// Results that are one: radians, and share of the depth.
-constexpr double kSamePlace = 1e-8;
+constexpr double kLargestStep = kPi / 24, kSameValue = 1e-6;
 // Depths at which multipliers are counted, and how far below each in their distances.
 constexpr int kCounts = 8;
 constexpr double kBesideCount[] = {0, -0.1, -0.2, -0.3, -0.4};
@@ -28,7 +27,7 @@ constexpr int kMostCounts = 4;
 // be left; and half of what is missing more where the count is not confirmed.
 constexpr double kShareOfPoints = 0.6;
 constexpr Eigen::Index kMorePolynomials = 2, kLeastFew = 6;
-// An eigenvalue of the search may be wrong by so many times what one of them is seen to be.
+// An eigenvalue of the search may be wrong by so many times what some of them are seen to be.
 constexpr double kMarginOfMove = 10;
 // Operators of more rows are searched in a space that has their large eigenvalues: what acts with less than
 // this share of what limits at the largest depth is left out, and with each attempt so much less.
@@ -89,9 +88,9 @@ class Refinement {
       for (int step = 0; step < kMostSteps && !underway.empty(); ++step) {
         const EigenvalueLanes eigen = values_near(eight);
         std::erase_if(underway, [&](std::size_t i) {
-          const bool there = arrived(eight[i], eigen.value[i]);
+          const bool there = arrived(eight[i], eigen.value[i], eigen.slope[i]);
           if (there)
-            result.push_back(passage(eight[i], eigen.value[i], eigen.slope[i], i));
+            result.push_back(passage(eight[i], starts[first + i], eigen.value[i], eigen.slope[i], i));
           else
             eight[i] = next(eight[i], eigen.value[i], eigen.slope[i]);
           return there;
@@ -108,7 +107,7 @@ class Refinement {
       const auto eight = CircleLanes::eight_from(starts, first);
       const EigenvalueLanes eigen = values_near(eight);
       for (std::size_t i = 0; i < CircleLanes::kPlaces && first + i < starts.size(); ++i)
-        result.push_back(passage(eight[i], eigen.value[i], eigen.slope[i], i));
+        result.push_back(passage(eight[i], eight[i], eigen.value[i], eigen.slope[i], i));
     }
     return result;
   }
@@ -125,26 +124,33 @@ class Refinement {
     return lanes_.refined(shifts);
   }
 
-  static bool arrived(const Start& at, Complex value) {
+  static bool arrived(const Start& at, Complex value, Complex slope) {
+    if (at.seek == Seek::kTouch)  // what is left changes the imaginary part by so much
+      return slope.imag() * slope.imag() < kOnAxis * std::abs(at.curvature * value);
     if (at.seek == Seek::kAxis) return std::abs(value.imag()) < kOnAxis * std::abs(value);
     return std::abs(value - at.value) < kSameValue * std::abs(value);
   }
 
   static Start next(Start at, Complex value, Complex slope) {
-    const double step =
-        at.seek == Seek::kAxis ? std::clamp(-value.imag() / slope.imag(), -kLargestStep, kLargestStep) : 0.0;
+    double step = 0;
+    if (at.seek == Seek::kAxis) step = -value.imag() / slope.imag();
+    if (at.seek == Seek::kTouch) step = -slope.imag() / at.curvature;
+    step = std::clamp(step, -kLargestStep, kLargestStep);
     at.value = value + slope * step;
     at.angle = std::clamp(at.angle + step, 0.0, kPi);
     return at;
   }
 
-  CirclePassage passage(const Start& at, Complex value, Complex slope, std::size_t place) const {
+  CirclePassage passage(const Start& at, const Start& from, Complex value, Complex slope,
+                        std::size_t place) const {
     CirclePassage passage;
     passage.angle = at.angle;
     passage.seek = at.seek;
+    passage.curvature = at.curvature;
     passage.depth_m = 1 / value.real();
     passage.outwards = slope.imag() < 0;
     passage.value = value;
+    passage.from = from.value;
     passage.slope = slope;
     passage.difference = lanes_.right(place);
     passage.left = lanes_.left(place);
@@ -221,6 +227,33 @@ std::vector<double> depths_to_count_at(const std::vector<CirclePassage>& found, 
   return depths;
 }
 
+// Puts solved passages, touches and the nearest eigenvalue where they belong. Of an eigenvalue's size, how
+// wrong those that they were sought from may be.
+double sorted_in(std::vector<CirclePassage> solved, CirclePassages& result) {
+  double moved = 0;
+  for (CirclePassage& passage : solved) {
+    if (passage.seek == Seek::kValue) {
+      moved = std::max(moved, std::abs((passage.value - passage.from) / passage.value));
+      result.nearest = std::move(passage);
+    } else if (passage.seek == Seek::kTouch) {
+      moved = std::max(moved, std::abs((passage.extremum() - passage.from.imag()) / passage.value));
+      result.touches.push_back(std::move(passage));
+    } else {
+      result.found.push_back(std::move(passage));
+    }
+  }
+  return kMarginOfMove * moved;
+}
+
+// By depth, each once. What ran into +1 or -1 while the angle was changed has been sought there by itself.
+void put_in_order(std::vector<CirclePassage>& found) {
+  std::erase_if(found,
+                [](const CirclePassage& p) { return !p.is_real() && (p.angle == 0 || p.angle == kPi); });
+  std::sort(found.begin(), found.end(),
+            [](const CirclePassage& a, const CirclePassage& b) { return a.depth_m < b.depth_m; });
+  found.erase(std::unique(found.begin(), found.end(), are_one), found.end());
+}
+
 int unstable_at(const std::vector<CirclePassage>& found, double depth_m) {
   int count = 0;
   for (const CirclePassage& p : found)
@@ -269,23 +302,23 @@ CirclePassages circle_passages(const CircleOperator& whole, double largest_depth
     search.settle();
     for (int again = 1; all && again < attempt; ++again) search.refine();
     std::vector<Start> starts = search.starts();
+    const std::vector<RealPair> pairs = search.pairs();
+    result.found.clear();
+    result.touches.clear();
+    result.pairs = pairs_of_whole(whole, pairs, starts);
     if (const auto nearest = search.nearest()) starts.push_back(*nearest);
-    double margin = 0;  // of an eigenvalue's size: how wrong the search's may be
-    result.found = large ? passages_by_residuals(whole, space, starts, margin) : of_whole->passages(starts);
-    std::erase_if(result.found, [&](CirclePassage& passage) {
-      if (passage.seek != Seek::kValue) return false;
-      const double moved = std::abs(passage.value - search.nearest()->value) / std::abs(passage.value);
-      margin = std::max(margin, kMarginOfMove * moved);
-      result.nearest = std::move(passage);
-      return true;
-    });
-    std::sort(result.found.begin(), result.found.end(),
-              [](const CirclePassage& a, const CirclePassage& b) { return a.depth_m < b.depth_m; });
-    const auto same = [](const CirclePassage& a, const CirclePassage& b) {
-      return std::abs(a.angle - b.angle) < kSamePlace &&
-             std::abs(a.depth_m - b.depth_m) < kSamePlace * b.depth_m;
+    double error = 0;
+    const auto solved = [&](const std::vector<Start>& some) {
+      return large ? passages_by_residuals(whole, space, some, error) : of_whole->passages(some);
     };
-    result.found.erase(std::unique(result.found.begin(), result.found.end(), same), result.found.end());
+    std::vector<CirclePassage> all_found = solved(starts);
+    // What the search has and the whole operator has not may be the search's error, and its touch another
+    // place.
+    const bool lost = all_found.size() < starts.size() || result.pairs.size() < pairs.size();
+    // Of an eigenvalue's size: how wrong the search's may be.
+    const double margin = std::max(sorted_in(std::move(all_found), result), error);
+    sorted_in(solved(starts_beside(result.touches)), result);
+    put_in_order(result.found);
 
     const std::vector<double> depths = depths_to_count_at(result.found, largest_depth_m);
     const auto as_found = [&](double depth, std::optional<int> count) {
@@ -304,16 +337,16 @@ CirclePassages circle_passages(const CircleOperator& whole, double largest_depth
       const std::optional<int> count = search.count(depth);
       result.confirmed = result.confirmed && (!count || as_found(depth, count));
     }
-    const bool touches = !all && search.touches(margin);
-    if (result.confirmed && !touches) break;
+    const bool doubtful = !all && (lost || search.touches(margin));
+    if (result.confirmed && !doubtful) break;
     share *= kSmallerShare;
-    most = touches ? longest : most + (longest - most + 1) / 2;
+    most = doubtful ? longest : most + (longest - most + 1) / 2;
   }
   while (!result.found.empty() && result.found.back().depth_m > largest_depth_m) result.found.pop_back();
   return result;
 }
 
-double carried_over(CirclePassages& passages, const CircleOperator& finer) {
+Carried carried_over(CirclePassages& passages, const CircleOperator& finer) {
   std::vector<const CirclePassage*> judged = passages.boundaries();
   if (judged.empty() && passages.nearest) judged.push_back(&*passages.nearest);
   const std::vector<Eigen::Index> rows = finer.rows_of(passages.most);
@@ -324,10 +357,11 @@ double carried_over(CirclePassages& passages, const CircleOperator& finer) {
     triple.left(rows) = passage.left;
     return corrected_value(finer, triple);
   };
-  double change = 0;
+  Carried carried{0, are_doubtful(passages, finer, value_there)};
   for (const CirclePassage* passage : judged)
-    change = std::max(change, std::abs((value_there(*passage) - passage->value) / passage->slope));
-  if (change > kCarried) return change;
+    carried.change =
+        std::max(carried.change, std::abs((value_there(*passage) - passage->value) / passage->slope));
+  if (carried.change > kCarried) return carried;
   for (CirclePassage& passage : passages.found) {
     // One step of Newton's method; where the eigenvalue nearly touches the axis it would be a wild one.
     const Complex value = value_there(passage);
@@ -337,7 +371,7 @@ double carried_over(CirclePassages& passages, const CircleOperator& finer) {
     passage.value = value + step * passage.slope;
     passage.depth_m = 1 / passage.value.real();
   }
-  return change;
+  return carried;
 }
 
 }  // namespace stablecut::milling

@@ -9,6 +9,7 @@
 
 #include "milling/circle_operator.h"
 #include "milling/circle_search.h"
+#include "milling/real_pair.h"
 
 namespace stablecut::milling {
 
@@ -18,15 +19,23 @@ struct CirclePassage {
   double angle = 0;  ///< of the multiplier
   bool outwards = true;
   Seek seek = Seek::kAxis;      ///< what was sought; of a passage kAxis or kAtOne
+  double curvature = 0;         ///< of a touch: second derivative of Im value by the angle
   std::complex<double> value;   ///< the eigenvalue of M: 1 / depth
+  std::complex<double> from;    ///< the one that it was sought from
   std::complex<double> slope;   ///< its derivative by the angle
   Eigen::VectorXcd difference;  ///< [rows] what the rows sense, to a factor: right eigenvector
   Eigen::VectorXcd left;        ///< [rows] left eigenvector
 
+  /// Of a touch: the imaginary part where it is least or greatest. It crosses the axis twice where that and
+  /// the curvature have different signs.
+  double extremum() const { return value.imag() - slope.imag() * slope.imag() / (2 * curvature); }
   bool is_real() const { return seek == Seek::kAtOne; }  ///< +1 or -1: passes alone
   /// Of the number of multipliers outside the circle.
   int change() const { return (outwards ? 1 : -1) * (is_real() ? 1 : 2); }
 };
+
+/// Newton's method ends where the imaginary part is this share of the eigenvalue.
+constexpr double kOnAxis = 1e-11;
 
 struct CirclePassages {
   std::vector<CirclePassage> found;  ///< by depth
@@ -34,6 +43,10 @@ struct CirclePassages {
   bool confirmed = false;
   /// The eigenvalue of M on the circle that is nearest to a limit; none where M has none to speak of.
   std::optional<CirclePassage> nearest;
+  /// Where two passages are close together or nearly are: eigenvalues whose imaginary part is least or
+  /// greatest and nearly 0, and those at +1 and -1 that are nearly one.
+  std::vector<CirclePassage> touches;
+  std::vector<RealPair> pairs;
   Eigen::Index most = 0;  ///< polynomials on the longest arc
 
   /// Those at which the cut becomes unstable (outwards) or stable again.
@@ -43,9 +56,14 @@ struct CirclePassages {
 /// All passages between depth 0 and the largest, of a structure that is stable by itself.
 CirclePassages circle_passages(const CircleOperator& whole, double largest_depth_m);
 
+/// What another operator of the same cut changes.
+struct Carried {
+  double change = 0;      ///< the largest of the boundaries' multipliers; of the nearest where there is none
+  bool doubtful = false;  ///< a touch or a pair changes so much that it may be two passages, or none
+};
+
 /// Carries passages over to an operator of the same cut with more polynomials along the same arcs, where they
-/// are near. The largest change of the boundaries' multipliers thereby; of the nearest eigenvalue where there
-/// is no passage.
-double carried_over(CirclePassages& passages, const CircleOperator& finer);
+/// are near.
+Carried carried_over(CirclePassages& passages, const CircleOperator& finer);
 
 }  // namespace stablecut::milling

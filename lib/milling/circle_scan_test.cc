@@ -214,3 +214,54 @@ TEST_CASE(
   const std::complex<double> slope = (largest(whole, 2.0 + step) - largest(whole, 2.0 - step)) / (2 * step);
   CHECK(std::abs(refined.slope[6] - slope) < 1e-6 * std::abs(slope));
 }
+
+// Limits depend continuously on the speed, and two vanish together only where they meet: at the speed at
+// which their number changes, found by bisection, they are as close as the bisection leaves.
+TEST_CASE("two limits that vanish between two speeds have met") {
+  int met = 0;
+  for (unsigned seed = 0; seed < 16; ++seed) {
+    const TipStructure structure =
+        tip_structure(fixtures::coupled_modes(1 + static_cast<int>(seed % 5), seed));
+    const Cutter cutter =
+        fixtures::benchmark_cutter(seed % 2 == 0, seed % 3 == 0 ? 0.05 : 0.3, 1 + static_cast<int>(seed % 4));
+    const double top = 4e-3;
+    const auto crossings = [&](double speed) {
+      const auto limits = circle_limits(structure, cutter, speed, top);
+      return limits ? std::optional(limits->crossings) : std::nullopt;
+    };
+    const std::vector<double> speeds = Range{90, 230, 61}.values();
+    for (std::size_t i = 0; i + 1 < speeds.size(); ++i) {
+      double with = speeds[i], without = speeds[i + 1];
+      auto found = crossings(with), fewer = crossings(without);
+      REQUIRE(found);
+      REQUIRE(fewer);
+      if (found->size() < fewer->size()) {
+        std::swap(with, without);
+        std::swap(found, fewer);
+      }
+      if (found->size() != fewer->size() + 2) continue;
+      bool by_two = true;
+      while (by_two && std::abs(with - without) > 1e-12 * with) {
+        const double middle = (with + without) / 2;
+        const auto there = crossings(middle);
+        if (!there) break;  // so near to meeting that rounding leaves it open
+        by_two = there->size() == found->size() || there->size() == fewer->size();
+        if (there->size() == found->size()) {
+          with = middle;
+          found = there;
+        } else {
+          without = middle;
+        }
+      }
+      if (!by_two) continue;
+      double nearest = top;
+      for (std::size_t k = 0; k + 1 < found->size(); ++k)
+        nearest = std::min(nearest, (*found)[k + 1].depth_m - (*found)[k].depth_m);
+      INFO("seed " << seed << ", " << with << " rev/s");
+      // The distance is as the square root of the speed's.
+      CHECK(nearest < 1e-4 * top);
+      ++met;
+    }
+  }
+  CHECK(met >= 7);
+}

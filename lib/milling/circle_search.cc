@@ -57,8 +57,8 @@ void CircleSearch::settle() {
     for (auto place = places_.begin(); std::next(place) != places_.end(); ++place) {
       if (place->settled) continue;
       const Place& next = *std::next(place);
-      place->crossings.clear();
-      place->settled = clear_between(*place, next, least_, 0, place->crossings);
+      place->passing = {};
+      place->settled = clear_between(*place, next, least_, 0, place->passing);
       if (!place->settled) {
         if (next.angle - place->angle < kLeastStretch || places_.size() + angles.size() >= kMostPlaces) {
           place->settled = true;  // the count tells whether something was lost
@@ -83,12 +83,37 @@ void CircleSearch::refine() {
 std::vector<Start> CircleSearch::starts() const {
   std::vector<Start> all;
   for (const Place& place : places_) {
-    for (const auto& [angle, value] : place.crossings) all.push_back({angle, value, Seek::kAxis});
+    for (const auto& [angle, value] : place.passing.crossings) all.push_back({angle, value, Seek::kAxis});
+    for (const Touch& touch : place.passing.touches)
+      all.push_back({touch.angle, touch.value, Seek::kTouch, touch.curvature});
   }
   for (const Place* place : {&places_.front(), &places_.back()}) {
     for (const Branch& branch : place->branches) {
       if (branch.value.real() >= least_ && branch.value.imag() == 0)
         all.push_back({place->angle, branch.value, Seek::kAtOne});
+    }
+  }
+  return all;
+}
+
+std::vector<RealPair> CircleSearch::pairs() const {
+  std::vector<RealPair> all;
+  for (const Place* place : {&places_.front(), &places_.back()}) {
+    std::vector<double> real;
+    for (const Branch& branch : place->branches) {
+      const Complex value = branch.value;
+      if (value.real() < least_) continue;
+      if (value.imag() == 0) real.push_back(value.real());
+      const double square = -value.imag() * value.imag();
+      if (value.imag() > 0 && nearly_one(value.real(), square))
+        all.push_back({place->angle, value.real(), square});
+    }
+    std::sort(real.begin(), real.end());
+    for (std::size_t i = 1; i < real.size(); ++i) {
+      const double mean = (real[i - 1] + real[i]) / 2, half = (real[i] - real[i - 1]) / 2;
+      if (!nearly_one(mean, half * half)) continue;
+      all.push_back({place->angle, mean, half * half});
+      ++i;  // none is in two pairs
     }
   }
   return all;
@@ -107,7 +132,7 @@ std::optional<Start> CircleSearch::nearest() const {
 
 bool CircleSearch::touches(double share) const {
   for (auto place = places_.begin(); std::next(place) != places_.end(); ++place) {
-    std::vector<Crossing> found;
+    Passing found;
     if (!clear_between(*place, *std::next(place), least_, share, found)) return true;
   }
   return false;

@@ -10,18 +10,20 @@
 #include "milling/circle_curves.h"
 #include "milling/circle_lanes.h"
 #include "milling/circle_operator.h"
+#include "milling/real_pair.h"
 
 namespace stablecut::milling {
 
-/// What Newton's method changes the angle for: nothing where the multiplier is real (+1 or -1), or where any
-/// eigenvalue will do.
-enum class Seek { kAxis, kAtOne, kValue };
+/// What Newton's method changes the angle for: an eigenvalue that is real, or whose imaginary part is least
+/// or greatest; nothing where the multiplier is real (+1 or -1), or where any eigenvalue will do.
+enum class Seek { kAxis, kTouch, kAtOne, kValue };
 
 /// An eigenvalue to begin Newton's method with.
 struct Start {
   double angle = 0;
   std::complex<double> value;
   Seek seek = Seek::kAxis;
+  double curvature = 0;  ///< of a touch: second derivative of the imaginary part by the angle
 };
 
 class CircleSearch {
@@ -34,8 +36,10 @@ class CircleSearch {
   /// Bisects all stretches, and settles them.
   void refine();
 
-  /// What crosses the positive real axis, or lies on it at +1 and -1.
+  /// What crosses the positive real axis, touches it, or lies on it at +1 and -1.
   std::vector<Start> starts() const;
+  /// Eigenvalues at +1 and -1 that are nearly one.
+  std::vector<RealPair> pairs() const;
   /// The value nearest to a limit, whether or not it is one.
   std::optional<Start> nearest() const;
   /// Whether some curve comes nearer to the axis than this share of its size without crossing it there.

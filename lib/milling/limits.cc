@@ -28,6 +28,9 @@ constexpr Eigen::Index kManyRowsByTooth = 160;
 // Order in which the error of polynomials along an arc falls where other teeth enter or leave meanwhile, and
 // the largest step that is taken by it.
 constexpr double kOrderByTooth = 7, kLargestGrowth = 1.5;
+// Rounds in which passages close together may be in doubt.
+constexpr int kMostDoubts = 5;
+
 void describe(const Chatter& chatter, const TipStructure& structure, double tooth_period_s,
               StabilityCrossing& crossing) {
   crossing.kind = chatter.kind;
@@ -104,19 +107,23 @@ std::optional<SpeedLimits> circle_limits(const TipStructure& structure, const Cu
   if (!cutter.equal_pitch()) plan = plan_by_tooth(structure, cutter, revolutions_per_s);
   SpeedLimits limits;
   limits.error = std::numeric_limits<double>::infinity();
+  int doubts = 0;
   for (int points = plan.first;;) {
     const int finer = more_points(points);
     const PeriodForce all = cut.force(finer), here = with_fewer(all, points);
     if (!cut.suits_the_circle(here)) return std::nullopt;
     CirclePassages passages = circle_passages(here.whole, largest_depth_m);
     if (!passages.confirmed) return std::nullopt;
-    const double error = carried_over(passages, all.whole);
-    const bool better = error < limits.error;
+    const auto [error, doubtful] = carried_over(passages, all.whole);
+    // Which passages there are is resolved beyond how exactly they are known.
+    const bool better = error < limits.error || (doubts > 0 && error <= plan.wanted);
     if (better) limits = {cut.crossings(passages, here), error, points};
-    if (!better || error <= plan.wanted || finer > plan.most) break;
+    if (doubtful) ++doubts;
+    const bool enough = error <= plan.wanted && (!doubtful || doubts > kMostDoubts);
+    if (!better || enough || finer > plan.most) break;
     // With modes without mass a tooth's entry bends the motion of the others so sharply that polynomials
     // along their whole way through the cut converge slowly.
-    points = cut.points_after(points, error / plan.wanted);
+    points = cut.points_after(points, std::max(1.0, error / plan.wanted));
   }
   refuse_useless(revolutions_per_s, limits.error);
   return limits;
