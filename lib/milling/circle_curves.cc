@@ -190,6 +190,24 @@ bool clear_crossings(const Curve& c, const Extrema& extrema, double least, std::
   return uncertain == 0;
 }
 
+// Whether the imaginary part turns where it is less than the margin, between `least` and `most`.
+bool turns(const Curve& c, double least, double most) {
+  bool rising = c.slope_from.imag() > 0, near_before = false;
+  Complex before = c.from;
+  for (int i = 0; i <= kBetween; ++i) {
+    const Complex z = c.at(static_cast<double>(i) / kBetween);
+    const bool near =
+        z.real() > kOutOfReach * least && z.real() < most && std::abs(z.imag()) < c.margin * size_of(z);
+    const bool rises = i == 0 ? rising : (z - before).imag() > 0;
+    const bool known = i > 0 && (i > 1 || c.cubic || !c.slope_at_end);
+    if (known && rises != rising && (near || near_before)) return true;
+    rising = rises;
+    before = z;
+    near_before = near;
+  }
+  return c.cubic && near_before && (c.slope_to.imag() > 0) != rising;
+}
+
 }  // namespace
 
 bool matters(Complex value, double least) {
@@ -231,6 +249,15 @@ bool clear_between(const Place& place, const Place& next, double least, double m
     }
   }
   return true;
+}
+
+bool turns_near_axis(const Place& place, const Place& next, double least, double most, double margin) {
+  for (const Pairing& pair : pairings(place, next)) {
+    Curve curve = curve_between(place, pair.from, next, pair.to);
+    curve.margin = margin;
+    if (turns(curve, least, most)) return true;
+  }
+  return false;
 }
 
 }  // namespace stablecut::milling

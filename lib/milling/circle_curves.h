@@ -59,4 +59,8 @@ bool nearly_one(double mean, double square);
 /// or touches it. Eigenvalues may be wrong by `margin` times their size.
 bool clear_between(const Place& place, const Place& next, double least, double margin, Passing& passing);
 
+/// Whether a curve between two places turns back so near the positive real axis, with a real part between
+/// `least` and `most`, that an error of `margin` times its size might add or remove two crossings.
+bool turns_near_axis(const Place& place, const Place& next, double least, double most, double margin);
+
 }  // namespace stablecut::milling

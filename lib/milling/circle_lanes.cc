@@ -223,6 +223,20 @@ EigenvalueLanes CircleLanes::refined(const std::array<Complex, kPlaces>& shifts)
   return lanes;
 }
 
+std::array<Complex, CircleLanes::kPlaces> CircleLanes::quotients(const CircleOperator& other) {
+  const Arrays arrays{size_,           modes_,        other.state_of.data(), group_of_.data(),
+                      factors_.data(), scales_.data()};
+  double *x = work_.data(), *dx = x + 2 * modes_ * kComplexLanes;
+  states_of(arrays, right_.data(), x, dx);
+  alignas(64) double result[2 * kComplexLanes] = {};
+  add_quotients(arrays, {other.parts[0].direct.data(), other.parts[0].of_state.data()}, scales_.data(),
+                right_.data(), left_.data(), x, dx, result);
+  divide(right_.data(), left_.data(), size_, result);
+  std::array<Complex, kPlaces> values;
+  for (Eigen::Index lane = 0; lane < kLanes; ++lane) values[lane] = get(result, lane);
+  return values;
+}
+
 Eigen::VectorXcd CircleLanes::vector(const numerics::LaneArray& of, std::size_t place) const {
   Eigen::VectorXcd vector(size_);
   for (Eigen::Index i = 0; i < size_; ++i)

@@ -35,6 +35,8 @@ class CircleLanes {
   /// One near `shifts` at each place (after form): the quotient y^H M x / y^H x of its vectors, whose error
   /// is the square of theirs.
   EigenvalueLanes refined(const std::array<std::complex<double>, kPlaces>& shifts);
+  /// The same quotients of those vectors with another operator with equal modes, as many rows and one part.
+  std::array<std::complex<double>, kPlaces> quotients(const CircleOperator& other);
   /// det(I - depth M) at each place (after form) times (-1 / depth)^size, over its modulus.
   std::array<std::complex<double>, kPlaces> determinant_phases(double depth_m) {
     return eigen_.determinant_phases(1 / depth_m);

@@ -53,6 +53,20 @@ std::vector<Eigen::Index> CircleOperator::rows_of(Eigen::Index count) const {
   return rows;
 }
 
+Eigen::MatrixXcd CircleOperator::matrix(double angle) const {
+  const Eigen::MatrixXcd states = resolvent_times(*this, angle, false, state_of.cast<Complex>());
+  Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(size(), size());
+  for (const Part& part : parts) {
+    Eigen::MatrixXd re = part.direct, im = Eigen::MatrixXd::Zero(size(), size());
+    if (part.of_state.cols() > 0) {
+      re.noalias() += part.of_state * states.real();
+      im.noalias() += part.of_state * states.imag();
+    }
+    result += scale_of(*this, part, angle) * (re + Complex(0, 1) * im);
+  }
+  return result;
+}
+
 Eigen::MatrixXcd CircleOperator::times(double angle, const Eigen::MatrixXcd& columns) const {
   const Eigen::MatrixXcd states = resolvent_times(*this, angle, false, state_of * columns);
   Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(columns.rows(), columns.cols());

@@ -36,6 +36,8 @@ struct CircleOperator {
   /// The rows whose degree is one that `most` polynomials on the longest arc leave.
   std::vector<Eigen::Index> rows_of(Eigen::Index most) const;
 
+  /// M(exp(i angle)).
+  Eigen::MatrixXcd matrix(double angle) const;
   /// M(exp(i angle)) times each column, and its adjoint times each.
   Eigen::MatrixXcd times(double angle, const Eigen::MatrixXcd& columns) const;
   Eigen::MatrixXcd adjoint_times(double angle, const Eigen::MatrixXcd& columns) const;

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/units.h"
+#include "milling/circle_count.h"
 #include "milling/circle_lanes.h"
 #include "milling/circle_reduction.h"
 #include "milling/circle_search.h"
@@ -19,9 +20,6 @@ using Complex = std::complex<double>;
 // before where only that is wanted.
 constexpr int kMostSteps = 8;
 constexpr double kLargestStep = kPi / 24, kSameValue = 1e-6;
-// Depths at which multipliers are counted, and how far below each in their distances.
-constexpr int kCounts = 8;
-constexpr double kBesideCount[] = {0, -0.1, -0.2, -0.3, -0.4};
 constexpr int kMostCounts = 4;
 // The search has this share of an arc's polynomials, and so many more; all where fewer than kLeastFew would
 // be left; and half of what is missing more where the count is not confirmed.
@@ -38,36 +36,6 @@ constexpr int kMostEnrichments = 5;
 constexpr double kResolved = 1e-9;
 // Changes of a multiplier up to which passages are carried over to a finer operator.
 constexpr double kCarried = 1e-5;
-// Radians that a determinant's phase may change from place to place, and places at which that is given up.
-constexpr double kMostTurnOfWhole = 1;
-constexpr std::size_t kMostPlacesOfWhole = 6000;
-
-// The number of multipliers outside the unit circle at a depth: det(I - depth M) goes round 0 that often,
-// backwards, while mu goes once round the circle. Half of it is enough. Places are added where the phase
-// changes by more than kMostTurnOfWhole; nothing is known where that does not end.
-std::optional<int> winding(CircleLanes& lanes, std::vector<double> angles, double depth_m) {
-  std::vector<std::pair<double, Complex>> known;  // angle, phase
-  while (!angles.empty()) {
-    for (std::size_t first = 0; first < angles.size(); first += CircleLanes::kPlaces) {
-      const std::size_t count = std::min(CircleLanes::kPlaces, angles.size() - first);
-      const CircleLanes::Angles eight = CircleLanes::eight_from(angles, first);
-      lanes.form(eight);
-      const auto phases = lanes.determinant_phases(depth_m);
-      for (std::size_t i = 0; i < count; ++i) known.emplace_back(eight[i], phases[i]);
-    }
-    std::sort(known.begin(), known.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    angles.clear();
-    double turn = 0;
-    for (std::size_t i = 0; i + 1 < known.size(); ++i) {
-      const double step = std::arg(known[i + 1].second * std::conj(known[i].second));
-      turn += step;
-      if (std::abs(step) > kMostTurnOfWhole) angles.push_back((known[i].first + known[i + 1].first) / 2);
-    }
-    if (angles.empty()) return -static_cast<int>(std::lround(turn / kPi));
-    if (known.size() + angles.size() > kMostPlacesOfWhole) break;
-  }
-  return std::nullopt;
-}
 
 // Newton's method on an operator, eight at a time: where the eigenvalue is real.
 class Refinement {
@@ -208,25 +176,6 @@ std::vector<CirclePassage> passages_by_residuals(const CircleOperator& whole, co
   return result;
 }
 
-// Depths up to the largest at which multipliers are counted, away from the passages.
-std::vector<double> depths_to_count_at(const std::vector<CirclePassage>& found, double largest_depth_m) {
-  std::vector<double> depths;
-  for (int k = 1; k <= kCounts; ++k) {
-    double best = 0, widest = -1;
-    for (const double beside : kBesideCount) {
-      const double depth = (k + beside) / kCounts * largest_depth_m;
-      double nearest = largest_depth_m;
-      for (const CirclePassage& p : found) nearest = std::min(nearest, std::abs(p.depth_m - depth));
-      if (nearest > widest) {
-        widest = nearest;
-        best = depth;
-      }
-    }
-    depths.push_back(best);
-  }
-  return depths;
-}
-
 // Puts solved passages, touches and the nearest eigenvalue where they belong. Of an eigenvalue's size, how
 // wrong those that they were sought from may be.
 double sorted_in(std::vector<CirclePassage> solved, CirclePassages& result) {
@@ -252,13 +201,6 @@ void put_in_order(std::vector<CirclePassage>& found) {
   std::sort(found.begin(), found.end(),
             [](const CirclePassage& a, const CirclePassage& b) { return a.depth_m < b.depth_m; });
   found.erase(std::unique(found.begin(), found.end(), are_one), found.end());
-}
-
-int unstable_at(const std::vector<CirclePassage>& found, double depth_m) {
-  int count = 0;
-  for (const CirclePassage& p : found)
-    if (p.depth_m <= depth_m) count += p.change();
-  return count;
 }
 
 }  // namespace

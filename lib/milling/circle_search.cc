@@ -27,6 +27,12 @@ constexpr std::size_t kMostPlaces = 6000;
 constexpr double kLeastStretch = 1e-9;
 // Imaginary part of a real eigenvalue, of the largest.
 constexpr double kRealValue = 1e-9;
+// With a variation over the depth: steps to the value at its own depth, the change that ends them, how far
+// beyond the high depth the quadratic is taken, and the largest change of a value.
+constexpr int kMostDepthSteps = 12;
+constexpr double kSameDepth = 1e-6, kFarthestDepth = 1.2, kMostOfValue = 0.5;
+// Radians of a stretch then: where eigenvalues meet, these values have jumps.
+constexpr double kLeastStretchAlong = 1e-4;
 // Radians that a determinant's phase may change from place to place, and its factors between scalings that
 // keep it finite.
 constexpr double kMostTurn = 2;
@@ -34,8 +40,8 @@ constexpr int kBetweenScalings = 16;
 
 }  // namespace
 
-CircleSearch::CircleSearch(const CircleOperator& of, double largest_depth_m)
-    : lanes_(of), least_(1 / (kAbove * largest_depth_m)) {
+CircleSearch::CircleSearch(const CircleOperator& of, double largest_depth_m, const DepthVariation* along)
+    : lanes_(of), least_(1 / (kAbove * largest_depth_m)), along_(along) {
   std::vector<double> angles;
   for (int i = 0; i <= kEven; ++i) angles.push_back(kPi * i / kEven);
   for (const Complex& growth : of.growth) {
@@ -60,7 +66,8 @@ void CircleSearch::settle() {
       place->passing = {};
       place->settled = clear_between(*place, next, least_, 0, place->passing);
       if (!place->settled) {
-        if (next.angle - place->angle < kLeastStretch || places_.size() + angles.size() >= kMostPlaces) {
+        const double least_stretch = along_ != nullptr ? kLeastStretchAlong : kLeastStretch;
+        if (next.angle - place->angle < least_stretch || places_.size() + angles.size() >= kMostPlaces) {
           place->settled = true;  // the count tells whether something was lost
         } else {
           angles.push_back((place->angle + next.angle) / 2);
@@ -138,6 +145,13 @@ bool CircleSearch::touches(double share) const {
   return false;
 }
 
+bool CircleSearch::turns_near_axis(double share, double least_depth_m) const {
+  for (auto place = places_.begin(); std::next(place) != places_.end(); ++place) {
+    if (milling::turns_near_axis(*place, *std::next(place), least_, 1 / least_depth_m, share)) return true;
+  }
+  return false;
+}
+
 std::optional<int> CircleSearch::count(double depth_m) const {
   double turn = 0;
   Complex before = 1;
@@ -159,6 +173,24 @@ std::optional<int> CircleSearch::count(double depth_m) const {
 std::vector<double> CircleSearch::angles() const {
   std::vector<double> result;
   for (const Place& place : places_) result.push_back(place.angle);
+  return result;
+}
+
+std::vector<Complex> CircleSearch::values_near(const std::vector<Start>& at) {
+  std::vector<Complex> result;
+  for (std::size_t first = 0; first < at.size(); first += CircleLanes::kPlaces) {
+    const std::size_t count = std::min(CircleLanes::kPlaces, at.size() - first);
+    CircleLanes::Angles angles;
+    for (std::size_t i = 0; i < angles.size(); ++i) angles[i] = at[first + std::min(i, count - 1)].angle;
+    for (const Place& place : computed(angles, count)) {
+      const Complex near = at[result.size()].value;
+      const auto nearest = std::min_element(place.branches.begin(), place.branches.end(),
+                                            [&](const Branch& a, const Branch& b) {
+                                              return size_of(a.value - near) < size_of(b.value - near);
+                                            });
+      result.push_back(nearest->value);
+    }
+  }
   return result;
 }
 
@@ -197,8 +229,43 @@ std::vector<Place> CircleSearch::computed(const CircleLanes::Angles& angles, std
       branch.slope = refined.slope[i];
       branch.has_slope = std::isfinite(std::norm(branch.slope));
     }
+    if (along_ != nullptr) follow_depth(wanted, turn, places);
   }
   return places;
+}
+
+// The value 1 / a for which it is the eigenvalue at the depth a, with the vectors of the searched depth: from
+// a quadratic through the quotients at three depths.
+void CircleSearch::follow_depth(const std::array<std::vector<std::size_t>, CircleLanes::kPlaces>& wanted,
+                                std::size_t turn, std::vector<Place>& places) {
+  const auto low = lanes_.quotients(along_->low), high = lanes_.quotients(along_->high);
+  const double below = along_->low_m - along_->searched_m, above = along_->high_m - along_->searched_m;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (turn >= wanted[i].size()) continue;
+    Branch& branch = places[i].branches[wanted[i][turn]];
+    const Complex to_low = (low[i] - branch.value) / below, to_high = (high[i] - branch.value) / above;
+    const Complex curve = (to_high - to_low) / (above - below), slope = to_low - curve * below;
+    const double farthest = kFarthestDepth * along_->high_m;
+    const auto within = [&](Complex depth) {
+      const double far = size_of(depth) / farthest;
+      return far > 1 ? depth / far : depth;
+    };
+    // Newton's method for depth * value = 1.
+    Complex depth = within(1.0 / branch.value), value, change;
+    for (int step = 0; step < kMostDepthSteps; ++step) {
+      const Complex offset = depth - along_->searched_m;
+      value = branch.value + offset * (slope + curve * offset);
+      change = (slope + 2.0 * curve * offset) * depth;
+      const Complex before = depth;
+      depth = within(depth - (depth * value - 1.0) / (value + change));
+      if (size_of(depth - before) < kSameDepth * size_of(depth)) break;
+    }
+    change /= value;
+    // Near places where eigenvalues meet nothing of the first order holds.
+    if (!(size_of(value - branch.value) < kMostOfValue * size_of(branch.value))) continue;
+    branch.slope *= value / branch.value / (1.0 + change);
+    branch.value = branch.value.imag() == 0 ? value.real() : value;
+  }
 }
 
 // Computes places at these angles (increasing) and puts them in their order.

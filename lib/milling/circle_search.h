@@ -2,6 +2,7 @@
 // know what crosses the positive real axis. README.md, "The search on the unit circle".
 #pragma once
 
+#include <array>
 #include <complex>
 #include <list>
 #include <optional>
@@ -26,10 +27,18 @@ struct Start {
   double curvature = 0;  ///< of a touch: second derivative of the imaginary part by the angle
 };
 
+/// Of a cut whose operator changes with the depth: operators of equal rows at a low and a high depth beside
+/// the one, at a depth between, that is searched.
+struct DepthVariation {
+  double low_m = 0, searched_m = 0, high_m = 0;
+  CircleOperator low, high;
+};
+
 class CircleSearch {
  public:
-  /// For limits up to a depth. The operator must outlive the search.
-  CircleSearch(const CircleOperator& of, double largest_depth_m);
+  /// For limits up to a depth. The operator must outlive the search. With a variation (which must too) the
+  /// values are 1 / a where 1 / a is an eigenvalue of the operator at a, to the first order of what changes.
+  CircleSearch(const CircleOperator& of, double largest_depth_m, const DepthVariation* along = nullptr);
 
   /// Bisects stretches until it is clear in all of them what crosses the axis.
   void settle();
@@ -44,17 +53,25 @@ class CircleSearch {
   std::optional<Start> nearest() const;
   /// Whether some curve comes nearer to the axis than this share of its size without crossing it there.
   bool touches(double share) const;
+  /// Whether some curve turns back within this share of its size from the axis, above a depth.
+  bool turns_near_axis(double share, double least_depth_m) const;
   /// The number of multipliers outside the unit circle at a depth, from the winding of det(I - depth M); none
   /// where its phase changes too much from place to place.
   std::optional<int> count(double depth_m) const;
   std::vector<double> angles() const;
+  /// The value nearest to that of each, at its angle.
+  std::vector<std::complex<double>> values_near(const std::vector<Start>& at);
 
  private:
   void add(const std::vector<double>& angles);
   std::vector<Place> computed(const CircleLanes::Angles& angles, std::size_t count);
 
+  void follow_depth(const std::array<std::vector<std::size_t>, CircleLanes::kPlaces>& wanted,
+                    std::size_t turn, std::vector<Place>& places);
+
   CircleLanes lanes_;
   double least_;
+  const DepthVariation* along_;
   std::list<Place> places_;
 };
 

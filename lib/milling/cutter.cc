@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "base/error.h"
 #include "base/units.h"
@@ -123,10 +124,12 @@ struct Pass {
   }
 };
 
-CutSchedule schedule_of_equal_pitch(const Pass& pass) {
-  const double pitch = pass.cutter.mean_pitch_rad();
+// From a tip angle on, which may lie within a piece; or from the first end of one.
+CutSchedule schedule_of_equal_pitch(const Pass& pass, std::optional<double> from_rad = {}) {
+  const double pitch = pass.cutter.mean_pitch_rad(), base = from_rad.value_or(0);
   std::vector<double> ends;
-  for (const double event : pass.events_rad) ends.push_back(wrapped(event, pitch));
+  for (const double event : pass.events_rad) ends.push_back(base + wrapped(event - base, pitch));
+  if (from_rad) ends.push_back(base);
   ends = distinct(ends);
   const double start = ends.front();
   ends.push_back(start + pitch);
@@ -218,6 +221,15 @@ void set_immersion(Cutter& cutter, bool up_milling, double radial_immersion) {
 CutSchedule cut_schedule(const Cutter& cutter, double revolutions_per_s, double depth_m) {
   const Pass pass(cutter, revolutions_per_s, depth_m);
   return cutter.equal_pitch() ? schedule_of_equal_pitch(pass) : schedule_of_unequal_pitch(pass);
+}
+
+HelicalArc helical_arc(const Cutter& cutter, double largest_depth_m) {
+  const Pass pass(cutter, 1, largest_depth_m);
+  return {pass.first_rad, std::min(pass.last_rad - pass.first_rad, cutter.mean_pitch_rad())};
+}
+
+CutSchedule helical_pieces(const Cutter& cutter, double depth_m, double from_rad) {
+  return schedule_of_equal_pitch(Pass(cutter, 1, depth_m), from_rad);
 }
 
 CutSchedule tooth_arcs(const Cutter& cutter, double revolutions_per_s) {

@@ -78,6 +78,15 @@ CutSchedule cut_schedule(const Cutter& cutter, double revolutions_per_s, double 
 /// order of the teeth, which is that of the beginnings: the first one's surface was cut in the period before.
 CutSchedule tooth_arcs(const Cutter& cutter, double revolutions_per_s);
 
+/// Where helical teeth of equal pitch are in cut at any depth up to the largest: the tip angle from which on,
+/// and how far, at most a pitch.
+struct HelicalArc {
+  double from_rad = 0, length_rad = 0;
+};
+HelicalArc helical_arc(const Cutter& cutter, double largest_depth_m);
+/// The pieces of one pitch at a depth, turns counted from a tip angle, whether or not a piece begins there.
+CutSchedule helical_pieces(const Cutter& cutter, double depth_m, double from_rad);
+
 /// The exact mean of A while tooth 1 turns through the angles [from, to], for straight teeth of equal pitch
 /// [RobotMillingThesis, eq. 6-29]. Teeth may enter or leave in between. N/m2.
 Eigen::Matrix2d mean_directional_coefficients(const Cutter& cutter, double from_rad, double to_rad);

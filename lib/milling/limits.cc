@@ -7,6 +7,7 @@
 
 #include "base/units.h"
 #include "milling/circle_scan.h"
+#include "milling/helical_limits.h"
 #include "milling/semi_discretization.h"
 #include "milling/spectral.h"
 #include "milling/tooth_arcs.h"
@@ -93,6 +94,24 @@ class StraightCut {
   double period_s_;
 };
 
+std::vector<StabilityCrossing> crossings_of(const TipStructure& structure, const HelicalLimits& helical,
+                                            double tooth_period_s) {
+  std::vector<StabilityCrossing> result;
+  for (const HelicalLimit& limit : helical.limits) {
+    StabilityCrossing crossing;
+    crossing.depth_m = limit.depth_m;
+    crossing.unstable_above = limit.unstable_above;
+    describe(chatter_of(structure, tooth_period_s, limit.multiplier, limit.forces), structure, tooth_period_s,
+             crossing);
+    result.push_back(crossing);
+  }
+  return result;
+}
+
+bool is_helical_and_stable(const TipStructure& structure, const Cutter& cutter) {
+  return is_helical_for_the_circle(cutter) && structure.lambda.real().maxCoeff() < 0;
+}
+
 bool is_straight_and_stable(const TipStructure& structure, const Cutter& cutter) {
   return cutter.lag_rad_per_m == 0 && structure.lambda.real().maxCoeff() < 0;
 }
@@ -101,6 +120,14 @@ bool is_straight_and_stable(const TipStructure& structure, const Cutter& cutter)
 
 std::optional<SpeedLimits> circle_limits(const TipStructure& structure, const Cutter& cutter,
                                          double revolutions_per_s, double largest_depth_m) {
+  const double tooth_period_s = cutter.tooth_period_s(revolutions_per_s);
+  if (is_helical_and_stable(structure, cutter)) {
+    const auto helical = helical_limits(structure, cutter, revolutions_per_s, largest_depth_m,
+                                        point_plan(structure, cutter, revolutions_per_s, largest_depth_m));
+    if (!helical) return std::nullopt;
+    refuse_useless(revolutions_per_s, helical->error);
+    return SpeedLimits{crossings_of(structure, *helical, tooth_period_s), helical->error, helical->points};
+  }
   if (!is_straight_and_stable(structure, cutter)) return std::nullopt;
   const StraightCut cut(structure, cutter, revolutions_per_s);
   PointPlan plan = point_plan(structure, cutter, revolutions_per_s, largest_depth_m);
@@ -156,6 +183,11 @@ std::vector<StabilityCrossing> crossings_at(const TipStructure& structure, const
       const CirclePassages passages = circle_passages(force.whole, largest_depth_m);
       if (passages.confirmed) return cut.crossings(passages, force);
     }
+  }
+  if (is_helical_and_stable(structure, cutter)) {
+    const PointPlan as_given{points, 0, 0};
+    if (const auto helical = helical_limits(structure, cutter, revolutions_per_s, largest_depth_m, as_given))
+      return crossings_of(structure, *helical, cutter.tooth_period_s(revolutions_per_s));
   }
   const SpectralMap map(structure, cutter, revolutions_per_s, points);
   return scanned_crossings(DepthScan(map, largest_depth_m, DepthScan::kForLimits), map,

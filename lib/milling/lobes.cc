@@ -31,8 +31,8 @@ struct Column {
 // more points than the limits.
 std::vector<double> grid_of(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
                             const std::vector<double>& depths_m, SpeedLimits& limits) {
-  if (!cutter.equal_pitch()) {
-    // The limits' polynomials say nothing about the points of a map.
+  if (!cutter.equal_pitch() || cutter.lag_rad_per_m != 0) {
+    // The limits' polynomials say nothing about the points of a map, or maps are dear.
     const PreparedPeriod period = prepare_period(structure, cutter, revolutions_per_s, {}, depths_m.back());
     const DepthScan scan(*period.map, depths_m.back());
     limits.error = std::max({limits.error, period.error, scan.error_against(*period.map)});
