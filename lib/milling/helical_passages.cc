@@ -25,9 +25,9 @@ constexpr int kSolutionsNear = 3;
 constexpr double kOffsetNear = 1e-10;
 // What acts with less than this share of what limits at the largest depth is left out of the search.
 constexpr double kHelicalShare = 0.3;
-// How often a panel of depth may be halved, and how far beyond its ends its starts are followed, of its
-// width.
-constexpr int kMostHalvings = 3;
+// How often a panel of depth may be halved; how many equal ones are searched at most where the count
+// disagrees; and how far beyond its ends a panel's starts are followed, of its width.
+constexpr int kMostHalvings = 3, kMostPanels = 4;
 constexpr double kBeyond = 0.5;
 // The search's values may be wrong by so many times what one of them is seen to be.
 constexpr double kMarginInDepth = 3, kLeastMove = 1e-3;
@@ -41,10 +41,13 @@ class Search {
   Search(const HelicalForce& force, double largest_depth_m) : force_(force), top_(largest_depth_m) {}
 
   HelicalPassages operator()() {
-    result_.confirmed = search_panel(0, top_, kMostHalvings);
-    if (result_.confirmed) {
+    for (int panels = 1; panels <= kMostPanels && !result_.confirmed; panels *= 2) {
+      bool certain = true;
+      for (int k = 0; k < panels && certain; ++k)
+        certain = search_panel(top_ * k / panels, top_ * (k + 1) / panels, kMostHalvings);
+      if (!certain) break;
       sort();
-      count();
+      result_.confirmed = is_counted();
     }
     while (!result_.found.empty() && result_.found.back().passage.depth_m > top_) result_.found.pop_back();
     if (result_.found.empty() && result_.nearest) set_nearest_at_top();
@@ -54,12 +57,11 @@ class Search {
  private:
   CircleOperator at(double depth_m) const { return force_.operator_of(force_.forces(depth_m)); }
 
-  // Panels in which it is not certain what crosses the axis are halved. Whether all became certain.
+  // Panels in which it is not certain what crosses the axis are halved. Whether all became certain. What has
+  // arrived is a passage, whichever panel it was found from.
   bool search_panel(double low, double high, int halvings) {
-    const std::size_t before = result_.found.size();
     if (is_certain(low, high)) return true;
     if (halvings == 0) return false;
-    result_.found.resize(before);
     const double middle = (low + high) / 2;
     return search_panel(low, middle, halvings - 1) && search_panel(middle, high, halvings - 1);
   }
@@ -80,7 +82,8 @@ class Search {
       const std::optional<HelicalPassage> found = passage_from(start);
       if (!found && depth > low && depth < high) return false;
       if (!found) continue;
-      found_at.push_back({found->passage.angle, found->passage.value, found->passage.seek});
+      if (found->passage.depth_m > low && found->passage.depth_m < high)
+        found_at.push_back({found->passage.angle, found->passage.value, found->passage.seek});
       result_.found.push_back(*found);
     }
     const std::vector<Complex> searched_there = search.values_near(found_at);
@@ -159,8 +162,9 @@ class Search {
     found.erase(std::unique(found.begin(), found.end(), same), found.end());
   }
 
-  void count() {
-    if (basis_.cols() == 0) return;
+  // Whether the winding number agrees with the passages at three depths.
+  bool is_counted() const {
+    if (basis_.cols() == 0) return true;
     std::vector<CirclePassage> plain;
     for (const HelicalPassage& p : result_.found) plain.push_back(p.passage);
     const std::vector<double> depths = depths_to_count_at(plain, top_);
@@ -168,8 +172,9 @@ class Search {
       const CircleOperator few = projected(at(depths[i]), basis_);
       CircleLanes lanes(few);
       const std::optional<int> counted = winding(lanes, angles_, depths[i]);
-      result_.confirmed = result_.confirmed && counted && *counted == unstable_at(plain, depths[i]);
+      if (!counted || *counted != unstable_at(plain, depths[i])) return false;
     }
+    return true;
   }
 
   const HelicalForce& force_;
