@@ -8,6 +8,8 @@ namespace stablecut {
 inline constexpr double kPi = std::numbers::pi;
 inline constexpr double kTwoPi = 2.0 * kPi;
 
+inline constexpr double kStandardGravity = 9.80665;  // m/s2; of a kilogram-force, N
+
 constexpr double metres_from_mm(double mm) { return mm * 1e-3; }
 constexpr double mm_from_metres(double m) { return m * 1e3; }
 constexpr double radians_from_degrees(double deg) { return deg * (kPi / 180.0); }

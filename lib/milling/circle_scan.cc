@@ -203,18 +203,19 @@ void put_in_order(std::vector<CirclePassage>& found) {
   found.erase(std::unique(found.begin(), found.end(), are_one), found.end());
 }
 
-}  // namespace
-
-std::vector<const CirclePassage*> CirclePassages::boundaries() const {
-  std::vector<const CirclePassage*> result;
-  int outside = 0;
-  for (const CirclePassage& passage : found) {
-    const int after = outside + passage.change();
-    if ((after > 0) != (outside > 0)) result.push_back(&passage);
-    outside = after;
-  }
-  return result;
+// Whether the winding number of the searched operator agrees with what was found wherever it is known, and
+// that of `at_top` at the largest depth.
+bool are_counted(const std::vector<CirclePassage>& found, const CircleSearch& search, double largest_depth_m,
+                 std::optional<int> at_top) {
+  const std::vector<double> depths = depths_to_count_at(found, largest_depth_m);
+  if (!at_top || *at_top != unstable_at(found, depths.back())) return false;
+  return std::all_of(depths.begin(), depths.end(), [&](double depth) {
+    const std::optional<int> count = search.count(depth);
+    return !count || *count == unstable_at(found, depth);
+  });
 }
+
+}  // namespace
 
 CirclePassages circle_passages(const CircleOperator& whole, double largest_depth_m) {
   CirclePassages result;
@@ -262,23 +263,16 @@ CirclePassages circle_passages(const CircleOperator& whole, double largest_depth
     sorted_in(solved(starts_beside(result.touches)), result);
     put_in_order(result.found);
 
-    const std::vector<double> depths = depths_to_count_at(result.found, largest_depth_m);
-    const auto as_found = [&](double depth, std::optional<int> count) {
-      return count && *count == unstable_at(result.found, depth);
-    };
     // Of the whole operator at the largest depth, where that is small enough; of the search's, which is
     // cheap, at all.
+    const double top = depths_to_count_at(result.found, largest_depth_m).back();
     std::optional<int> at_top;
-    if (all || large) at_top = search.count(depths.back());
+    if (all || large) at_top = search.count(top);
     if (!at_top) {
       CircleLanes of_searched(searched);
-      at_top = winding(large ? of_searched : of_whole->lanes(), search.angles(), depths.back());
+      at_top = winding(large ? of_searched : of_whole->lanes(), search.angles(), top);
     }
-    result.confirmed = as_found(depths.back(), at_top);
-    for (const double depth : depths) {
-      const std::optional<int> count = search.count(depth);
-      result.confirmed = result.confirmed && (!count || as_found(depth, count));
-    }
+    result.confirmed = are_counted(result.found, search, largest_depth_m, at_top);
     const bool doubtful = !all && (lost || search.touches(margin));
     if (result.confirmed && !doubtful) break;
     share *= kSmallerShare;
@@ -289,7 +283,7 @@ CirclePassages circle_passages(const CircleOperator& whole, double largest_depth
 }
 
 Carried carried_over(CirclePassages& passages, const CircleOperator& finer) {
-  std::vector<const CirclePassage*> judged = passages.boundaries();
+  std::vector<const CirclePassage*> judged = boundaries_among(passages.found);
   if (judged.empty() && passages.nearest) judged.push_back(&*passages.nearest);
   const std::vector<Eigen::Index> rows = finer.rows_of(passages.most);
   const auto value_there = [&](const CirclePassage& passage) {

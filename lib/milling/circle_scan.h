@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/units.h"
 #include "milling/circle_operator.h"
 #include "milling/circle_search.h"
 #include "milling/real_pair.h"
@@ -30,12 +31,28 @@ struct CirclePassage {
   /// the curvature have different signs.
   double extremum() const { return value.imag() - slope.imag() * slope.imag() / (2 * curvature); }
   bool is_real() const { return seek == Seek::kAtOne; }  ///< +1 or -1: passes alone
+  std::complex<double> multiplier() const {
+    return is_real() ? (angle > kPi / 2 ? -1.0 : 1.0) : std::polar(1.0, angle);
+  }
   /// Of the number of multipliers outside the circle.
   int change() const { return (outwards ? 1 : -1) * (is_real() ? 1 : 2); }
 };
 
 /// Newton's method ends where the imaginary part is this share of the eigenvalue.
 constexpr double kOnAxis = 1e-11;
+
+/// Those of some passages, by depth, at which the cut becomes unstable (outwards) or stable again.
+template <typename Passage>
+std::vector<const Passage*> boundaries_among(const std::vector<Passage>& found) {
+  std::vector<const Passage*> result;
+  int outside = 0;
+  for (const Passage& passage : found) {
+    const int after = outside + passage.change();
+    if ((after > 0) != (outside > 0)) result.push_back(&passage);
+    outside = after;
+  }
+  return result;
+}
 
 struct CirclePassages {
   std::vector<CirclePassage> found;  ///< by depth
@@ -48,9 +65,6 @@ struct CirclePassages {
   std::vector<CirclePassage> touches;
   std::vector<RealPair> pairs;
   Eigen::Index most = 0;  ///< polynomials on the longest arc
-
-  /// Those at which the cut becomes unstable (outwards) or stable again.
-  std::vector<const CirclePassage*> boundaries() const;
 };
 
 /// All passages between depth 0 and the largest, of a structure that is stable by itself.

@@ -62,7 +62,7 @@ TEST_CASE(
     CHECK(passages.confirmed);
     const SpectralMap map(cut.structure, cut.cutter, cut.revolutions_per_s, cut.points);
     const auto scanned = DepthScan(map, cut.largest_depth_m).boundaries();
-    const auto found = passages.boundaries();
+    const auto found = boundaries_among(passages.found);
     REQUIRE(found.size() == scanned.size());
     for (std::size_t i = 0; i < found.size(); ++i, ++boundaries) {
       CHECK(std::abs(found[i]->depth_m - scanned[i].depth_m) < 1e-7 * cut.largest_depth_m);

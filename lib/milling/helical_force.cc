@@ -54,14 +54,13 @@ Eigen::MatrixXd HelicalForce::forces(double depth_m) const {
     std::vector<Eigen::VectorXd> entries(directions * directions, Eigen::VectorXd(points));
     for (Eigen::Index i = 0; i < points; ++i) {
       const double place = (from + to) / 2 + (to - from) / 2 * rule.node[i];
-      values.col(i) = numerics::legendre_values(place, forces);
+      values.col(i) = numerics::orthonormal_legendre(place, forces);
       const DirectionalFactors factors = piece.cutting((place + 1) / 2 * arc_.length_rad);
       const Eigen::MatrixXd matrix = factors.drive * factors.sense;
       for (Eigen::Index b = 0; b < directions; ++b)
         for (Eigen::Index a = 0; a < directions; ++a)
           entries[b * directions + a][i] = (to - from) / 2 * rule.weight[i] * matrix(axes_[b], axes_[a]);
     }
-    for (Eigen::Index m = 0; m < forces; ++m) values.row(m) *= std::sqrt(static_cast<double>(m) + 0.5);
     for (Eigen::Index b = 0; b < directions; ++b)
       for (Eigen::Index a = 0; a < directions; ++a)
         result.block(b * forces, a * count_, forces, count_).noalias() +=

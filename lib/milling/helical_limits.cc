@@ -33,24 +33,23 @@ class ByPieces {
       : structure_(structure), cutter_(cutter), revolutions_per_s_(revolutions_per_s) {}
 
   // The limit near a passage, and how far its multiplier is from that of more polynomials.
-  std::pair<HelicalLimit, double> limit(HelicalPassage at, int points) const {
+  std::pair<HelicalLimit, double> limit(HelicalPassage p, int points) const {
     double error = 0;
     HelicalLimit limit;
-    CirclePassage& p = at.passage;
     for (int step = 0; step < kMostStepsByPieces; ++step) {
       const Pair pair = operators_at(p.depth_m, points);
       const Values values = values_near(pair, p.angle, 1 / p.depth_m);
       error = std::abs((values.finer - values.here.value) / p.slope);
       const Eigen::VectorXcd numbers = pair.here.lift * values.here.right;
       limit.forces = forces_of(pair.here.nodes, numbers);
-      const PassageStep change = step_from(at, values.finer);
+      const PassageStep change = step_from(p, values.finer);
       p.angle = std::clamp(p.angle + change.angle, 0.0, kPi);
       p.depth_m += change.depth_m;
       if (std::abs(change.depth_m) < kLastStep * p.depth_m) break;
     }
     limit.depth_m = p.depth_m;
     limit.unstable_above = p.outwards;
-    limit.multiplier = p.is_real() ? Complex(p.angle > kPi / 2 ? -1.0 : 1.0) : std::polar(1.0, p.angle);
+    limit.multiplier = p.multiplier();
     return {std::move(limit), error};
   }
 
@@ -112,12 +111,12 @@ std::optional<HelicalLimits> helical_limits(const TipStructure& structure, const
   const HelicalPassages passages = helical_passages(force, largest_depth_m);
   if (!passages.confirmed) return std::nullopt;
   const ByPieces pieces(structure, cutter, revolutions_per_s);
+  const std::vector<const HelicalPassage*> boundaries = boundaries_among(passages.found);
   HelicalLimits best;
   best.error = std::numeric_limits<double>::infinity();
   for (int points = plan.first;;) {
     HelicalLimits now;
     now.points = points;
-    const std::vector<const HelicalPassage*> boundaries = passages.boundaries();
     for (const HelicalPassage* passage : boundaries) {
       auto [limit, error] = pieces.limit(*passage, points);
       now.error = std::max(now.error, error);

@@ -49,7 +49,7 @@ class Search {
       sort();
       result_.confirmed = is_counted();
     }
-    while (!result_.found.empty() && result_.found.back().passage.depth_m > top_) result_.found.pop_back();
+    while (!result_.found.empty() && result_.found.back().depth_m > top_) result_.found.pop_back();
     if (result_.found.empty() && result_.nearest) set_nearest_at_top();
     return std::move(result_);
   }
@@ -82,8 +82,8 @@ class Search {
       const std::optional<HelicalPassage> found = passage_from(start);
       if (!found && depth > low && depth < high) return false;
       if (!found) continue;
-      if (found->passage.depth_m > low && found->passage.depth_m < high)
-        found_at.push_back({found->passage.angle, found->passage.value, found->passage.seek});
+      if (found->depth_m > low && found->depth_m < high)
+        found_at.push_back({found->angle, found->value, found->seek});
       result_.found.push_back(*found);
     }
     const std::vector<Complex> searched_there = search.values_near(found_at);
@@ -101,8 +101,7 @@ class Search {
   }
 
   std::optional<HelicalPassage> passage_from(const Start& start) const {
-    HelicalPassage result;
-    CirclePassage& p = result.passage;
+    HelicalPassage p;
     p.angle = start.angle;
     p.depth_m = 1 / start.value.real();
     p.seek = start.seek;
@@ -119,18 +118,18 @@ class Search {
           (quotient(here, p.angle + kAngleDifference) - quotient(here, p.angle - kAngleDifference)) /
           (2 * kAngleDifference);
       const Complex by_depth = (quotient(at(p.depth_m + difference), p.angle) - eigen.value) / difference;
-      result.by_angle = p.depth_m * slope;
-      result.by_depth = eigen.value + p.depth_m * by_depth;
+      p.by_angle = p.depth_m * slope;
+      p.by_depth = eigen.value + p.depth_m * by_depth;
       const Complex excess = p.depth_m * eigen.value - 1.0;
       if (std::abs(p.is_real() ? excess.real() : std::abs(excess)) < kArrived) {
         p.value = eigen.value;
         p.slope = slope;
         p.difference = eigen.right;
         p.left = eigen.left;
-        p.outwards = (result.by_depth / result.by_angle).imag() > 0;
-        return result;
+        p.outwards = (p.by_depth / p.by_angle).imag() > 0;
+        return p;
       }
-      const PassageStep wanted = step_from(result, eigen.value);
+      const PassageStep wanted = step_from(p, eigen.value);
       const double turn = std::clamp(wanted.angle, -kLargestTurn, kLargestTurn);
       const double deeper = std::clamp(wanted.depth_m, -kLargestDepthStep * top_, kLargestDepthStep * top_);
       near = eigen.value + slope * turn + by_depth * deeper;
@@ -152,12 +151,11 @@ class Search {
 
   void sort() {
     auto& found = result_.found;
-    std::sort(found.begin(), found.end(), [](const HelicalPassage& a, const HelicalPassage& b) {
-      return a.passage.depth_m < b.passage.depth_m;
-    });
+    std::sort(found.begin(), found.end(),
+              [](const HelicalPassage& a, const HelicalPassage& b) { return a.depth_m < b.depth_m; });
     const auto same = [](const HelicalPassage& a, const HelicalPassage& b) {
-      return std::abs(a.passage.angle - b.passage.angle) < kSamePassage &&
-             std::abs(a.passage.depth_m - b.passage.depth_m) < kSamePassage * b.passage.depth_m;
+      return std::abs(a.angle - b.angle) < kSamePassage &&
+             std::abs(a.depth_m - b.depth_m) < kSamePassage * b.depth_m;
     };
     found.erase(std::unique(found.begin(), found.end(), same), found.end());
   }
@@ -165,8 +163,7 @@ class Search {
   // Whether the winding number agrees with the passages at three depths.
   bool is_counted() const {
     if (basis_.cols() == 0) return true;
-    std::vector<CirclePassage> plain;
-    for (const HelicalPassage& p : result_.found) plain.push_back(p.passage);
+    const std::vector<CirclePassage> plain(result_.found.begin(), result_.found.end());
     const std::vector<double> depths = depths_to_count_at(plain, top_);
     for (const std::size_t i : {depths.size() / 4, depths.size() / 2, depths.size() - 1}) {
       const CircleOperator few = projected(at(depths[i]), basis_);
@@ -185,17 +182,6 @@ class Search {
 };
 
 }  // namespace
-
-std::vector<const HelicalPassage*> HelicalPassages::boundaries() const {
-  std::vector<const HelicalPassage*> result;
-  int outside = 0;
-  for (const HelicalPassage& p : found) {
-    const int after = outside + p.passage.change();
-    if ((after > 0) != (outside > 0)) result.push_back(&p);
-    outside = after;
-  }
-  return result;
-}
 
 HelicalPassages helical_passages(const HelicalForce& force, double largest_depth_m) {
   return Search(force, largest_depth_m)();
@@ -217,9 +203,8 @@ EigenTriple eigenvalue_near(const CircleOperator& of, double angle, Complex near
 }
 
 PassageStep step_from(const HelicalPassage& at, Complex value) {
-  const CirclePassage& p = at.passage;
-  const Complex excess = p.depth_m * value - 1.0;
-  if (p.is_real()) return {0, -excess.real() / at.by_depth.real()};
+  const Complex excess = at.depth_m * value - 1.0;
+  if (at.is_real()) return {0, -excess.real() / at.by_depth.real()};
   // by_angle * turn + by_depth * deeper = -excess, in real and imaginary part.
   const double determinant = (std::conj(at.by_angle) * at.by_depth).imag();
   return {(std::conj(at.by_depth) * excess).imag() / determinant,

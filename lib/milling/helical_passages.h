@@ -13,8 +13,7 @@
 namespace stablecut::milling {
 
 /// A passage with what its equation depth * kappa(angle, depth) = 1 changes by, per rad and per m.
-struct HelicalPassage {
-  CirclePassage passage;
+struct HelicalPassage : CirclePassage {
   std::complex<double> by_angle, by_depth;
 };
 
@@ -22,9 +21,6 @@ struct HelicalPassages {
   std::vector<HelicalPassage> found;  ///< by depth
   bool confirmed = false;             ///< by the winding number at several depths
   std::optional<Start> nearest;       ///< without a passage: what comes nearest to one, at the largest depth
-
-  /// Those at which the cut becomes unstable (outwards) or stable again.
-  std::vector<const HelicalPassage*> boundaries() const;
 };
 
 /// All passages between depth 0 and the largest, of a structure that is stable by itself.

@@ -15,8 +15,6 @@
 namespace stablecut::milling {
 namespace {
 
-using Complex = std::complex<double>;
-
 // A product of frequency and period this far below a whole number is that number: a multiplier counts as real
 // within 1e-7 of its size, 1.6e-8 of a wave.
 constexpr double kWholeWave = 1e-6;
@@ -32,14 +30,18 @@ constexpr double kOrderByTooth = 7, kLargestGrowth = 1.5;
 // Rounds in which passages close together may be in doubt.
 constexpr int kMostDoubts = 5;
 
-void describe(const Chatter& chatter, const TipStructure& structure, double tooth_period_s,
-              StabilityCrossing& crossing) {
+StabilityCrossing crossing_of(double depth_m, bool unstable_above, const Chatter& chatter,
+                              const TipStructure& structure, double tooth_period_s) {
+  StabilityCrossing crossing;
+  crossing.depth_m = depth_m;
+  crossing.unstable_above = unstable_above;
   crossing.kind = chatter.kind;
   crossing.chatter_frequency_hz = chatter.frequency_hz;
   crossing.lobe = lobe_number(chatter.frequency_hz, tooth_period_s);
   Eigen::Index mode = 0;
   crossing.participation = chatter.participation.maxCoeff(&mode);
   crossing.mode = structure.source[mode];
+  return crossing;
 }
 
 // A cut whose teeth are where they are at every depth.
@@ -72,16 +74,12 @@ class StraightCut {
 
   std::vector<StabilityCrossing> crossings(const CirclePassages& passages, const PeriodForce& force) const {
     std::vector<StabilityCrossing> result;
-    for (const CirclePassage* passage : passages.boundaries()) {
-      StabilityCrossing crossing;
-      crossing.depth_m = passage->depth_m;
-      crossing.unstable_above = passage->outwards;
+    for (const CirclePassage* passage : boundaries_among(passages.found)) {
       const Eigen::VectorXcd numbers = force.lift * passage->difference;
-      const Complex multiplier = passage->is_real() ? Complex(passage->angle > kPi / 2 ? -1.0 : 1.0)
-                                                    : std::polar(1.0, passage->angle);
-      describe(chatter_of(structure_, period_s_, multiplier, forces_of(force.nodes, numbers)), structure_,
-               tooth_period_s_, crossing);
-      result.push_back(crossing);
+      const Chatter chatter =
+          chatter_of(structure_, period_s_, passage->multiplier(), forces_of(force.nodes, numbers));
+      result.push_back(
+          crossing_of(passage->depth_m, passage->outwards, chatter, structure_, tooth_period_s_));
     }
     return result;
   }
@@ -98,12 +96,8 @@ std::vector<StabilityCrossing> crossings_of(const TipStructure& structure, const
                                             double tooth_period_s) {
   std::vector<StabilityCrossing> result;
   for (const HelicalLimit& limit : helical.limits) {
-    StabilityCrossing crossing;
-    crossing.depth_m = limit.depth_m;
-    crossing.unstable_above = limit.unstable_above;
-    describe(chatter_of(structure, tooth_period_s, limit.multiplier, limit.forces), structure, tooth_period_s,
-             crossing);
-    result.push_back(crossing);
+    const Chatter chatter = chatter_of(structure, tooth_period_s, limit.multiplier, limit.forces);
+    result.push_back(crossing_of(limit.depth_m, limit.unstable_above, chatter, structure, tooth_period_s));
   }
   return result;
 }
@@ -160,12 +154,9 @@ std::vector<StabilityCrossing> scanned_crossings(const DepthScan& scan, const Pe
                                                  double tooth_period_s) {
   std::vector<StabilityCrossing> crossings;
   for (const StabilityBoundary& boundary : scan.boundaries()) {
-    StabilityCrossing crossing;
-    crossing.depth_m = boundary.depth_m;
-    crossing.unstable_above = boundary.unstable_above;
-    describe(chatter_at(map, boundary.depth_m, boundary.multiplier), map.structure(), tooth_period_s,
-             crossing);
-    crossings.push_back(crossing);
+    const Chatter chatter = chatter_at(map, boundary.depth_m, boundary.multiplier);
+    crossings.push_back(
+        crossing_of(boundary.depth_m, boundary.unstable_above, chatter, map.structure(), tooth_period_s));
   }
   return crossings;
 }

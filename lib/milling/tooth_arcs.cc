@@ -83,12 +83,6 @@ class Builder {
   Eigen::VectorXd drive(double place, Eigen::Index kind) const {
     return factors(place, kind).drive(structure_.axes, 0);
   }
-  // [count] Legendre polynomials of norm 1 on [-1, 1].
-  static Eigen::VectorXd orthonormal(double place, Eigen::Index count) {
-    Eigen::VectorXd values = numerics::legendre_values(place, count);
-    for (Eigen::Index m = 0; m < count; ++m) values[m] *= std::sqrt(static_cast<double>(m) + 0.5);
-    return values;
-  }
   // Rows of velocities are multiplied by a time, so that they have the size of displacements.
   double unit_of(Eigen::Index kind) const { return kind == 0 ? 1 : length_s_ / 2; }
   Sensor sensor(const GaussRule& rule) const {
@@ -96,7 +90,7 @@ class Builder {
     Sensor result{rule.node, Eigen::MatrixXd(count_, places),
                   std::vector<Eigen::MatrixXd>(kinds_, Eigen::MatrixXd(places, structure_.directions()))};
     for (Eigen::Index i = 0; i < places; ++i) {
-      result.weighted.col(i) = rule.weight[i] * orthonormal(rule.node[i], count_);
+      result.weighted.col(i) = rule.weight[i] * numerics::orthonormal_legendre(rule.node[i], count_);
       for (Eigen::Index kind = 0; kind < kinds_; ++kind)
         result.sense[kind].row(i) = factors(rule.node[i], kind).sense(0, structure_.axes);
     }
@@ -125,7 +119,7 @@ class Builder {
       const double place = rule_.node[i];
       Eigen::VectorXd to = rule_.weight[i] * numerics::legendre_values(place, forces_);
       for (Eigen::Index m = 0; m < forces_; ++m) to[m] *= static_cast<double>(m) + 0.5;
-      const Eigen::VectorXd basis = orthonormal(place, count_);
+      const Eigen::VectorXd basis = numerics::orthonormal_legendre(place, count_);
       for (Eigen::Index kind = 0; kind < kinds_; ++kind) {
         const Eigen::VectorXd factor = drive(place, kind) / unit_of(kind);
         for (Eigen::Index b = 0; b < structure_.directions(); ++b)
@@ -245,7 +239,7 @@ class Builder {
   void add_velocity_jumps(Overlap& overlap) const {
     const Eigen::MatrixXd jump = 2 * (structure_.psi_r * structure_.psi_l.transpose()).real();
     for (Eigen::Index i = 0; i < points_; ++i) {
-      const Eigen::VectorXd basis = orthonormal(rule_.node[i], count_);
+      const Eigen::VectorXd basis = numerics::orthonormal_legendre(rule_.node[i], count_);
       for (Eigen::Index kind = 0; kind < kinds_; ++kind)
         overlap.response.block(count_, kind * count_, count_, count_) +=
             (unit_of(1) / unit_of(kind) * whole_.sense[1].row(i) * jump * drive(rule_.node[i], kind))
@@ -324,7 +318,7 @@ class Builder {
         for (Eigen::Index kind = 0; kind < kinds_; ++kind) {
           node.drive.col(kind) = drive(place, kind);
           result_.lift.block(row + kind, first + kind * count_, 1, count_) =
-              orthonormal(place, count_).transpose() / unit_of(kind);
+              numerics::orthonormal_legendre(place, count_).transpose() / unit_of(kind);
         }
         result_.nodes.push_back(std::move(node));
       }

@@ -20,6 +20,14 @@ double student_t_cdf(double x, double dof) { return boost::math::cdf(StudentT(do
 
 double student_t_quantile(double p, double dof) { return boost::math::quantile(StudentT(dof), p); }
 
+bool mean_above_zero(const Eigen::VectorXd& values, double tail) {
+  const auto count = static_cast<double>(values.size());
+  if (!(count > 1)) return false;
+  const double mean = values.mean();
+  const double spread = std::sqrt((values.array() - mean).square().sum() / (count - 1) / count);
+  return mean > student_t_quantile(1 - tail, count - 1) * spread;
+}
+
 double chi_square_tail(double x, double dof) { return boost::math::gamma_q(0.5 * dof, 0.5 * x, InDouble()); }
 
 double f_tail(double x, double numerator, double denominator) {

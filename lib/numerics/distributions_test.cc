@@ -35,3 +35,14 @@ TEST_CASE("closed forms of the distributions") {
   CHECK(f_tail(4, 1, 7) == Approx(2 * (1 - student_t_cdf(2, 7))).epsilon(1e-10));
   CHECK(normal_cdf(1.95996398454) == Approx(0.975).epsilon(1e-10));
 }
+
+TEST_CASE("Student's test of a mean") {
+  // Mean 3, deviation of the mean sqrt(2.5 / 5): t = 4.2426 with 4 degrees of freedom, tail 0.0066176.
+  const Eigen::VectorXd values = Eigen::VectorXd::LinSpaced(5, 1, 5);
+  const double tail = 1 - student_t_cdf(3 / std::sqrt(0.5), 4);
+  CHECK(tail == Approx(0.0066176).epsilon(1e-4));
+  CHECK(mean_above_zero(values, 1.001 * tail));
+  CHECK_FALSE(mean_above_zero(values, 0.999 * tail));
+  CHECK_FALSE(mean_above_zero(-values, 0.4));
+  CHECK_FALSE(mean_above_zero(values.tail(1), 0.05));
+}

@@ -38,6 +38,12 @@ Eigen::VectorXd legendre_values(double x, Eigen::Index count) {
   return p;
 }
 
+Eigen::VectorXd orthonormal_legendre(double x, Eigen::Index count) {
+  Eigen::VectorXd values = legendre_values(x, count);
+  for (Eigen::Index m = 0; m < count; ++m) values[m] *= std::sqrt(static_cast<double>(m) + 0.5);
+  return values;
+}
+
 Eigen::MatrixXd legendre_transform(const GaussRule& rule) {
   const Eigen::Index n = rule.node.size();
   Eigen::MatrixXd transform(n, n);

@@ -183,7 +183,7 @@ TEST_CASE("left-out groups are what leaving them out does, small groups and larg
   std::mt19937_64 generator(205);
   const YieldingRobot truth(ElasticModel::kJointsOnly, 0, false, generator);
   const std::vector<LoadSample> samples = truth.campaign(12, 10e-6, generator);
-  const auto springs = springs_of(truth.robot, ElasticModel::kJointsOnly);
+  const auto springs = joint_springs();
   const std::array<bool, 3> xyz = {true, true, true};
   const ComplianceEquations equations = compliance_equations(truth.robot, springs, samples, xyz);
   const ComplianceFit fit = fit_compliances(equations, false);

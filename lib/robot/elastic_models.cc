@@ -2,24 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "numerics/distributions.h"
 #include "robot/least_squares.h"
+#include "robot/normal_equations.h"
 
 namespace stablecut::robot {
 namespace {
 
-constexpr double kBetter = 0.95;  // of the t distribution over the blocks: the richer model predicts better
+constexpr double kByChance =
+    0.05;  // tail of the t test over the blocks that the richer model predicts better
 constexpr double kMoreThanNoise = 1e-3;  // tail of the F test between nested models
 constexpr double kExplained = 1e-6;      // of the measured values: what the normal equations' rounding leaves
 constexpr ElasticModel kModels[] = {ElasticModel::kJointsOnly, ElasticModel::kBase, ElasticModel::kThreeAxis};
 
-// The equations' rows divided by their deviations, columns of length 1, and what follows from them.
+// The equations' rows divided by their deviations, and what follows from them.
 struct Normal {
-  Eigen::MatrixXd a, matrix;                    // A and A^T A
-  Eigen::VectorXd b, right;                     // and A^T b
-  Eigen::MatrixXd root;                         // triangular factor of (A, b)
+  NormalEquations equations;
+  Eigen::MatrixXd root;                         // triangular factor of (A, b), in columns of length 1
   Eigen::RowVectorXd largest;                   // lengths that the columns could have, in the same units
   std::vector<std::vector<Eigen::Index>> rows;  // of each block
 };
@@ -29,45 +29,24 @@ Eigen::RowVectorXd lengths_of_largest(const ComplianceEquations& equations) {
   return (equations.std.cwiseInverse().asDiagonal() * equations.largest).colwise().norm();
 }
 
+NormalEquations weighted(const ComplianceEquations& equations) {
+  const std::vector<bool> not_negative(equations.a.cols(), true);
+  if (equations.std.size() == 0) return {equations.a, equations.b, not_negative};
+  return {equations.std.cwiseInverse().asDiagonal() * equations.a, equations.b.cwiseQuotient(equations.std),
+          not_negative};
+}
+
 Normal normal_of(const ComplianceEquations& equations, const SampleGroups& blocks) {
-  Normal result;
-  result.a = equations.a;
-  result.b = equations.b;
-  if (equations.std.size() > 0) {
-    result.a = equations.std.cwiseInverse().asDiagonal() * result.a;
-    result.b = result.b.cwiseQuotient(equations.std);
-  }
-  const Eigen::VectorXd norms = result.a.colwise().norm();
-  const Eigen::VectorXd length = (norms.array() > 0).select(norms, 1.0);
-  result.a *= length.cwiseInverse().asDiagonal();
-  result.largest = lengths_of_largest(equations).cwiseQuotient(length.transpose());
-  Eigen::MatrixXd both(result.a.rows(), result.a.cols() + 1);
-  both << result.a, result.b;
+  Normal result{weighted(equations), {}, {}, {}};
+  const Eigen::MatrixXd& a = result.equations.a();
+  result.largest = lengths_of_largest(equations).cwiseQuotient(result.equations.lengths().transpose());
+  Eigen::MatrixXd both(a.rows(), a.cols() + 1);
+  both << a, result.equations.b();
   result.root = triangular_factor(both);
-  result.matrix.noalias() = result.a.transpose() * result.a;
-  result.right = result.a.transpose() * result.b;
   result.rows.resize(blocks.count);
   for (std::size_t i = 0; i < equations.sample.size(); ++i)
     result.rows[blocks.of_sample[equations.sample[i]]].push_back(static_cast<Eigen::Index>(i));
   return result;
-}
-
-// The compliances, none below 0, that the normal matrix and right side of a least-squares problem give.
-Eigen::VectorXd fitted(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right) {
-  return bounded_normal_solution(matrix, right, std::vector<bool>(right.size(), true));
-}
-
-// Errors of each block's rows, predicted from the other blocks.
-Eigen::VectorXd block_errors(const Normal& normal, const std::vector<Eigen::Index>& columns) {
-  Eigen::VectorXd error = normal.b;
-  for (const std::vector<Eigen::Index>& rows : normal.rows) {
-    const Eigen::MatrixXd part = normal.a(rows, columns);
-    const Eigen::VectorXd own = normal.b(rows);
-    const Eigen::VectorXd solution = fitted(normal.matrix(columns, columns) - part.transpose() * part,
-                                            normal.right(columns) - part.transpose() * own);
-    error(rows) = own - part * solution;
-  }
-  return error;
 }
 
 double rms_of_deflections(const ComplianceEquations& equations, const Eigen::VectorXd& error) {
@@ -94,11 +73,7 @@ Eigen::VectorXd block_squares(const Normal& normal, const Eigen::VectorXd& error
 // scatter or the sum of squares (by the tail of its F test) says that this is more than chance.
 bool better_model(const Eigen::VectorXd& richer, const Eigen::VectorXd& simpler, double noise_tail) {
   const Eigen::VectorXd gain = simpler - richer;
-  const auto count = static_cast<double>(gain.size());
-  const double mean = gain.mean();
-  const double spread = std::sqrt((gain.array() - mean).square().sum() / (count - 1) / count);
-  return mean > 0 &&
-         (noise_tail < kMoreThanNoise || mean > numerics::student_t_quantile(kBetter, count - 1) * spread);
+  return gain.mean() > 0 && (noise_tail < kMoreThanNoise || numerics::mean_above_zero(gain, kByChance));
 }
 
 // What the seen columns of the first `count` springs leave of the sum of squares, bounds aside.
@@ -118,9 +93,11 @@ Remainder left_by(const Normal& normal, Eigen::Index count) {
 // Probability that noise makes the richer of two nested models fit as much better; 1 where both are exact or
 // too few rows are left.
 double noise_tail(const Remainder& simpler, const Remainder& richer, const Normal& normal) {
-  const double freedom = static_cast<double>(normal.b.size() - richer.seen),
+  const double freedom = static_cast<double>(normal.equations.b().size() - richer.seen),
                more = richer.seen - simpler.seen;
-  if (!(freedom > 0) || !(more > 0) || !(std::sqrt(simpler.squares) > kExplained * normal.b.norm())) return 1;
+  if (!(freedom > 0) || !(more > 0) ||
+      !(std::sqrt(simpler.squares) > kExplained * normal.equations.b().norm()))
+    return 1;
   const double f = (simpler.squares - richer.squares) / more / (richer.squares / freedom);
   return f > 0 ? numerics::f_tail(f, more, freedom) : 1;
 }
@@ -135,21 +112,18 @@ ModelChoice compare_models(const Robot& robot, const ComplianceEquations& equati
   Remainder best_left, joints_left;
   for (const ElasticModel model : kModels) {
     const auto count = static_cast<Eigen::Index>(springs_of(robot, model).size());
-    std::vector<Eigen::Index> columns(count);
-    std::iota(columns.begin(), columns.end(), 0);
     ModelTrial trial{model, static_cast<int>(count), 0, std::nullopt};
-    trial.residual_rms_m = rms_of_deflections(
-        equations,
-        normal.b - normal.a.leftCols(count) * fitted(normal.matrix(columns, columns), normal.right(columns)));
+    trial.residual_rms_m = rms_of_deflections(equations, normal.equations.residual(count));
     const Remainder left = left_by(normal, count);
     if (model == ElasticModel::kJointsOnly) joints_left = best_left = left;
     choice.joints_suffice_tail = noise_tail(joints_left, left, normal);
     if (blocks.count > 1) {
-      const Eigen::VectorXd error = block_errors(normal, columns);
+      const Eigen::VectorXd error = normal.equations.left_out(count, normal.rows);
       trial.block_rms_m = rms_of_deflections(equations, error);
       const Eigen::VectorXd squares = block_squares(normal, error);
-      const bool explained = best.size() > 0 && best.mean() * static_cast<double>(normal.b.size()) <
-                                                    std::pow(kExplained, 2) * normal.b.squaredNorm();
+      const bool explained =
+          best.size() > 0 && best.mean() * static_cast<double>(normal.equations.b().size()) <
+                                 std::pow(kExplained, 2) * normal.equations.b().squaredNorm();
       if (best.size() == 0 ||
           (!explained && better_model(squares, best, noise_tail(best_left, left, normal)))) {
         best = squares;

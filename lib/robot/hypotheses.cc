@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "numerics/distributions.h"
 #include "robot/given_poses.h"
 #include "robot/hypothesis_fit.h"
 
@@ -46,7 +47,7 @@ bool far_better(const PosePredictions& now, const PosePredictions& fit) {
   const int fitted = fit.hypothesis.unknowns();
   const Eigen::VectorXd gains = log_gains(now, fit);
   return gains.mean() > kFarBetter && gains.sum() * fit.rows_per_pose / 2 > kLeastGain[fitted] &&
-         mean_above_zero(gains, kChance[fitted]);
+         numerics::mean_above_zero(gains, kChance[fitted]);
 }
 
 }  // namespace
@@ -149,7 +150,7 @@ StiffnessOfReach stiffness_of_reach(const Robot& robot, const std::vector<LoadSa
   StiffnessOfReach result;
   result.reach_m = reach_of(robot);
   const ComplianceEquations equations =
-      compliance_equations(robot, springs_of(robot, ElasticModel::kJointsOnly), samples, options.components);
+      compliance_equations(robot, joint_springs(), samples, options.components);
   const Eigen::VectorXd usual = Eigen::VectorXd::Map(kUsualStiffness, kJoints) * std::pow(result.reach_m, 3);
   const Eigen::VectorXd expected = equations.a * usual.cwiseInverse();
   double expected_squares = 0, measured_squares = 0;
@@ -198,8 +199,9 @@ std::vector<BetterFit> better_fits(const Robot& robot, const std::vector<LoadSam
   std::stable_sort(better.begin(), better.end(),
                    [&](const auto& one, const auto& other) { return gain(one) > gain(other); });
   const PosePredictions best = better.front();
-  std::erase_if(better,
-                [&](const PosePredictions& fit) { return mean_above_zero(log_gains(fit, best), kWorse); });
+  std::erase_if(better, [&](const PosePredictions& fit) {
+    return numerics::mean_above_zero(log_gains(fit, best), kWorse);
+  });
   std::stable_partition(better.begin(), better.end(),
                         [](const PosePredictions& fit) { return fit.hypothesis.unknowns() == 0; });
   std::vector<BetterFit> result;

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "base/units.h"
-#include "numerics/distributions.h"
 #include "numerics/order_statistics.h"
 #include "robot/compliance_fit.h"
 #include "robot/given_poses.h"
@@ -73,8 +72,7 @@ HypothesisFits::HypothesisFits(const Robot& robot, const std::vector<LoadSample>
       columns.push_back(std::find(springs_.begin(), springs_.end(), spring) - springs_.begin());
     models_.push_back(columns);
   }
-  const ComplianceEquations joints =
-      compliance_equations(robot, springs_of(robot, ElasticModel::kJointsOnly), samples_, components);
+  const ComplianceEquations joints = compliance_equations(robot, joint_springs(), samples_, components);
   per_std_ = fit_compliances(joints, false).std.cwiseInverse();
   int count = 0;
   for (Eigen::Index i = 0; i < joints.b.size(); ++i) {
@@ -99,60 +97,33 @@ HypothesisFits::System HypothesisFits::system_with(const Hypothesis& hypothesis)
   return system;
 }
 
-// The normal equations of some columns, brought to length 1.
-struct HypothesisFits::Normal {
-  Eigen::MatrixXd a, matrix;
-  Eigen::VectorXd right, scale;
+NormalEquations HypothesisFits::normal_of(const System& system,
+                                          const std::vector<Eigen::Index>& columns) const {
   std::vector<bool> not_negative;
-};
-
-HypothesisFits::Normal HypothesisFits::normal_of(const System& system,
-                                                 const std::vector<Eigen::Index>& columns) const {
-  Normal normal;
-  normal.a = system.a(Eigen::all, columns);
-  normal.scale = normal.a.colwise().norm();
-  normal.scale = (normal.scale.array() > 0).select(normal.scale, 1.0);
-  normal.a = normal.a * normal.scale.cwiseInverse().asDiagonal();
-  normal.matrix = normal.a.transpose() * normal.a;
-  normal.right = normal.a.transpose() * system.b;
   for (const Eigen::Index column : columns)
-    normal.not_negative.push_back(column < static_cast<Eigen::Index>(springs_.size()));
-  return normal;
-}
-
-Eigen::VectorXd HypothesisFits::solution_of(const System& system,
-                                            const std::vector<Eigen::Index>& columns) const {
-  const Normal normal = normal_of(system, columns);
-  return bounded_normal_solution(normal.matrix, normal.right, normal.not_negative)
-      .cwiseQuotient(normal.scale);
+    not_negative.push_back(column < static_cast<Eigen::Index>(springs_.size()));
+  return {system.a(Eigen::all, columns), system.b, not_negative};
 }
 
 PosePredictions HypothesisFits::predictions(const System& system,
                                             const std::vector<Eigen::Index>& columns) const {
-  const Normal normal = normal_of(system, columns);
-  const Eigen::VectorXd residual =
-      system.b - normal.a * bounded_normal_solution(normal.matrix, normal.right, normal.not_negative);
+  const NormalEquations normal = normal_of(system, columns);
+  const auto count = static_cast<Eigen::Index>(columns.size());
+  const Eigen::VectorXd residual = normal.residual(count);
   const int folds = std::min(kMostFolds, poses_.count);
   std::vector<std::vector<Eigen::Index>> rows(folds);
   for (std::size_t i = 0; i < system.pose.size(); ++i)
     rows[system.pose[i] % folds].push_back(static_cast<Eigen::Index>(i));
+  const Eigen::VectorXd error = normal.left_out(count, rows);
   PosePredictions fit;
   fit.square = Eigen::VectorXd::Zero(poses_.count);
-  Eigen::VectorXd count = Eigen::VectorXd::Zero(poses_.count);
-  for (const auto& fold : rows) {
-    const Eigen::MatrixXd part = normal.a(fold, Eigen::all);
-    const Eigen::VectorXd own = system.b(fold);
-    const Eigen::VectorXd error =
-        own - part * bounded_normal_solution(normal.matrix - part.transpose() * part,
-                                             normal.right - part.transpose() * own, normal.not_negative);
-    for (std::size_t i = 0; i < fold.size(); ++i) {
-      const int pose = system.pose[fold[i]];
-      fit.square[pose] += std::pow(error[static_cast<Eigen::Index>(i)], 2);
-      count[pose] += 1;
-    }
+  Eigen::VectorXd rows_of_pose = Eigen::VectorXd::Zero(poses_.count);
+  for (std::size_t i = 0; i < system.pose.size(); ++i) {
+    fit.square[system.pose[i]] += std::pow(error[static_cast<Eigen::Index>(i)], 2);
+    rows_of_pose[system.pose[i]] += 1;
   }
-  fit.square = fit.square.cwiseQuotient(count);
-  fit.rows_per_pose = count.mean();
+  fit.square = fit.square.cwiseQuotient(rows_of_pose);
+  fit.rows_per_pose = rows_of_pose.mean();
   double sum = 0;
   int deflections = 0;
   for (std::size_t i = 0; i < system.pose.size(); ++i) {
@@ -186,7 +157,7 @@ void HypothesisFits::fit_vector(Hypothesis& hypothesis, System& system,
       const System there = system_with(moved);
       system.a.col(n + k) = (there.a(Eigen::all, springs) * compliance - there.b - here) / kVectorStep;
     }
-    const Eigen::VectorXd step = solution_of(system, columns).tail(unknowns);
+    const Eigen::VectorXd step = normal_of(system, columns).solution(columns.size()).tail(unknowns);
     if (step.norm() < kSettledStep) return;
     hypothesis.vector.head(unknowns) += step;
     if (!(hypothesis.vector.norm() < most_of(hypothesis))) return;
@@ -218,14 +189,6 @@ Eigen::VectorXd log_gains(const PosePredictions& one, const PosePredictions& oth
   };
   const double least = std::max(std::min(usual(one), usual(other)), std::numeric_limits<double>::min());
   return ((one.square.array() + least) / (other.square.array() + least)).log();
-}
-
-bool mean_above_zero(const Eigen::VectorXd& values, double tail) {
-  const auto count = static_cast<double>(values.size());
-  if (!(count > 1)) return false;
-  const double mean = values.mean();
-  const double spread = std::sqrt((values.array() - mean).square().sum() / (count - 1) / count);
-  return mean > numerics::student_t_quantile(1 - tail, count - 1) * spread;
 }
 
 }  // namespace stablecut::robot

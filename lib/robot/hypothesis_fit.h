@@ -2,6 +2,7 @@
 #pragma once
 
 #include "robot/hypotheses.h"
+#include "robot/normal_equations.h"
 #include "robot/sample_groups.h"
 
 namespace stablecut::robot {
@@ -30,11 +31,9 @@ class HypothesisFits {
  private:
   static constexpr double kExact = 1e-6;  // of the measured values: what normal equations leave
   struct System;
-  struct Normal;
 
   System system_with(const Hypothesis& hypothesis) const;
-  Normal normal_of(const System& system, const std::vector<Eigen::Index>& columns) const;
-  Eigen::VectorXd solution_of(const System& system, const std::vector<Eigen::Index>& columns) const;
+  NormalEquations normal_of(const System& system, const std::vector<Eigen::Index>& columns) const;
   PosePredictions predictions(const System& system, const std::vector<Eigen::Index>& columns) const;
   void fit_vector(Hypothesis& hypothesis, System& system, const std::vector<Eigen::Index>& springs) const;
 
@@ -51,9 +50,5 @@ class HypothesisFits {
 /// Logarithms of how much worse each pose is predicted by `one` than by `other`: of the squared errors, to
 /// which the usual one of the better fit is added, so that no single pose decides.
 Eigen::VectorXd log_gains(const PosePredictions& one, const PosePredictions& other);
-
-/// Whether the mean of the values is above 0 by Student's test: chance does that with a probability of
-/// `tail`.
-bool mean_above_zero(const Eigen::VectorXd& values, double tail);
 
 }  // namespace stablecut::robot

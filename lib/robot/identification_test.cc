@@ -254,8 +254,7 @@ TEST_CASE("cross-validation is what leaving out does") {
     const std::vector<LoadSample> own(first, first + 3);
     others.erase(first, first + 3);
     const Identification without = identify_stiffness(robot, others, {});
-    const ComplianceEquations left =
-        compliance_equations(robot, springs_of(robot, ElasticModel::kJointsOnly), own, {true, true, true});
+    const ComplianceEquations left = compliance_equations(robot, joint_springs(), own, {true, true, true});
     sum += (left.b - left.a * without.compliance).squaredNorm();
   }
   REQUIRE(found.cross_validation.rms_m);
@@ -304,7 +303,7 @@ TEST_CASE("the robust loss solves Huber's equations") {
   // sum over samples of w J^T r = 0, with w = min(1, 2 / z) and z the sample's RMS residual in robust
   // deviations.
   const ComplianceEquations equations =
-      compliance_equations(robot, springs_of(robot, ElasticModel::kJointsOnly), samples, {true, true, true});
+      compliance_equations(robot, joint_springs(), samples, {true, true, true});
   const Eigen::VectorXd r = equations.b - equations.a * found.compliance;
   std::vector<double> sizes(r.size());
   for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] = std::abs(r[i]);

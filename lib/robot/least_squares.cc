@@ -1,6 +1,5 @@
 #include "robot/least_squares.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
 
@@ -10,7 +9,6 @@ namespace {
 constexpr double kAtRest = 1e-13;          // slope of a unit column against the right side: below, rounding
 constexpr Eigen::Index kRowsAtOnce = 512;  // with twenty columns 80 KiB: the second cache
 constexpr int kMostChangesEach = 100;      // of the set, for each unknown: a guard
-constexpr double kOpen = 1e-10;  // of a unit column: keeps what the equations leave open at a minimum
 
 Eigen::VectorXd lengths(const Eigen::MatrixXd& a) {
   const Eigen::VectorXd norms = a.colwise().norm();
@@ -101,13 +99,6 @@ Eigen::VectorXd bounded_least_squares(const Eigen::MatrixXd& a, const Eigen::Vec
     }
   }
   return x.cwiseQuotient(scale);
-}
-
-Eigen::VectorXd bounded_normal_solution(Eigen::MatrixXd matrix, const Eigen::VectorXd& right,
-                                        const std::vector<bool>& not_negative) {
-  matrix.diagonal().array() += kOpen;
-  const Eigen::LLT<Eigen::MatrixXd> factor(matrix);
-  return bounded_least_squares(factor.matrixU(), factor.matrixL().solve(right), not_negative);
 }
 
 }  // namespace stablecut::robot

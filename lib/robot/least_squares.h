@@ -19,9 +19,4 @@ Eigen::MatrixXd inverse_normal_matrix(const Eigen::MatrixXd& a);
 Eigen::VectorXd bounded_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
                                       const std::vector<bool>& not_negative);
 
-/// The same from the normal equations A^T A x = A^T b of columns that all have length 1 or 0. 1e-10 is added
-/// to the diagonal, so that what the equations leave open stays small. Half the digits of the above.
-Eigen::VectorXd bounded_normal_solution(Eigen::MatrixXd matrix, const Eigen::VectorXd& right,
-                                        const std::vector<bool>& not_negative);
-
 }  // namespace stablecut::robot

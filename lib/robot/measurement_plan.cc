@@ -135,8 +135,8 @@ Identifiability identifiability_of(const std::vector<int>& chosen, const std::ve
 
 MeasurementPlan plan_measurements(const Robot& robot, const std::vector<LoadSample>& candidates,
                                   const PlanOptions& options) {
-  const ComplianceEquations equations = compliance_equations(
-      robot, springs_of(robot, ElasticModel::kJointsOnly), candidates, options.components);
+  const ComplianceEquations equations =
+      compliance_equations(robot, joint_springs(), candidates, options.components);
   if (equations.std.size() == 0)
     throw InvalidArgument("deviations: missing: expected one for every candidate");
   const Eigen::MatrixXd a = equations.std.cwiseInverse().asDiagonal() * equations.a;
@@ -184,7 +184,7 @@ JointAngles std_with_discrepancy(const Robot& robot, const std::vector<LoadSampl
   std::vector<LoadSample> measured;
   for (const int k : plan.chosen) measured.push_back(candidates[k]);
   const ComplianceEquations equations =
-      compliance_equations(robot, springs_of(robot, ElasticModel::kJointsOnly), measured, options.components);
+      compliance_equations(robot, joint_springs(), measured, options.components);
   const Eigen::VectorXd predicted = equations.a * joint_compliance;
   std::vector<double> squares(measured.size(), 0);
   for (std::size_t i = 0; i < equations.sample.size(); ++i)

@@ -21,9 +21,7 @@ TEST_CASE("a plan is the best of all choices where they can be tried, and never 
     Eigen::Matrix<double, 5, 5> sum = Eigen::Matrix<double, 5, 5>::Zero();
     for (const int k : chosen) {
       const auto a =
-          compliance_equations(robot, springs_of(robot, ElasticModel::kJointsOnly), {candidates[k]}, xyz)
-              .a.leftCols<5>()
-              .eval();
+          compliance_equations(robot, joint_springs(), {candidates[k]}, xyz).a.leftCols<5>().eval();
       sum += a.transpose() * a;
     }
     return std::log(sum.determinant());

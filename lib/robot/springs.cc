@@ -9,12 +9,10 @@ namespace stablecut::robot {
 namespace {
 
 constexpr int kTrialPoses = 24;       // at which springs are compared
-constexpr double kGravity = 9.80665;  // m/s2, the standard value
 constexpr double kSameSpring = 1e-9;  // of its length: what the springs before leave of a column
 
 std::vector<Spring> all_springs(ElasticModel model) {
-  std::vector<Spring> springs;
-  for (int j = 0; j < kJoints; ++j) springs.push_back({Spring::Kind::kJoint, j, 2});
+  std::vector<Spring> springs = joint_springs();
   for (int axis = 0; axis < 3 && model != ElasticModel::kJointsOnly; ++axis)
     springs.push_back({Spring::Kind::kBase, 0, axis});
   for (int j = 0; j < kJoints && model == ElasticModel::kThreeAxis; ++j) {
@@ -46,6 +44,12 @@ SpringAxis spring_axis(const RobotPose& pose, const Spring& spring) {
     return {Eigen::Vector3d::Unit(spring.axis), Eigen::Vector3d::Zero(), false};
   const Eigen::Vector3d z = pose.axis.col(spring.joint), x = pose.frame_x.col(spring.joint);
   return {spring.axis == 2 ? z : spring.axis == 0 ? x : z.cross(x), pose.point.col(spring.joint), true};
+}
+
+std::vector<Spring> joint_springs() {
+  std::vector<Spring> springs;
+  for (int j = 0; j < kJoints; ++j) springs.push_back({Spring::Kind::kJoint, j, 2});
+  return springs;
 }
 
 std::vector<Spring> springs_of(const Robot& robot, ElasticModel model) {
@@ -82,7 +86,7 @@ double weight_load(const Robot& robot, const RobotPose& pose, const Spring& spri
     const Eigen::Vector3d x = pose.frame_x.col(j), z = robot.joints[j].theta_sign * pose.axis.col(j);
     Eigen::Matrix3d frame;
     frame << x, z.cross(x), z;
-    load += axis.load({0, 0, -mass->mass_kg * kGravity}, pose.point.col(j) + frame * mass->center_m,
+    load += axis.load({0, 0, -mass->mass_kg * kStandardGravity}, pose.point.col(j) + frame * mass->center_m,
                       Eigen::Vector3d::Zero());
   }
   return load;

@@ -30,6 +30,9 @@ enum class ElasticModel {
   kThreeAxis,   ///< and the bearings: three springs a joint
 };
 
+/// The six joints' springs.
+std::vector<Spring> joint_springs();
+
 /// The springs of a model, the six joints' first. A spring whose effect on the tool's compliance is in every
 /// pose a mixture of those before it is left out: two axes that always coincide are one spring.
 std::vector<Spring> springs_of(const Robot& robot, ElasticModel model);

@@ -25,7 +25,7 @@ checks = [
     ("lib/modal/line_windows.cc", f"kWindowRatio = {nstr(mpf(2) ** (mpf(1) / 6), 5)};", "2^(1/6), five digits"),
     ("lib/modal/mode_parameters.cc", f"std::polar(1.0, {float(-pi / 4)!r})", "-pi / 4"),
     ("lib/numerics/elementary_lanes.h", f"kShift = {1.5 * 2.0**52!r};", "1.5 2^52"),
-    ("lib/document/measured/frf_unit.cc", f"kGravity = {float(Fraction('9.80665'))!r};", "definition (CGPM 1901), m/s^2"),
+    ("lib/base/units.h", f"kStandardGravity = {float(Fraction('9.80665'))!r};", "definition (CGPM 1901), m/s^2"),
     ("lib/document/measured/frf_unit.cc", f"kPoundForce = {float(Fraction('0.45359237') * Fraction('9.80665'))!r};",
      "0.45359237 kg (definition of the pound) times standard gravity, N"),
     ("lib/document/measured/universal_file_writer.cc", f"{273.16:.17e}".replace("e", "D"), "273.16 in 18 digits"),

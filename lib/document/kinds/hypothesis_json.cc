@@ -14,7 +14,7 @@ struct NamedUnit {
   double to_si;
 };
 constexpr NamedUnit kDeflectionUnits[] = {{"mm", 1e-3}, {"m", 1}, {"um", 1e-6}, {"inch", 0.0254}};
-constexpr NamedUnit kForceUnits[] = {{"N", 1}, {"kgf", 9.80665}};
+constexpr NamedUnit kForceUnits[] = {{"N", 1}, {"kgf", kStandardGravity}};
 constexpr double kSameUnit = 1e-6;  // relative
 
 template <std::size_t N>

@@ -12,7 +12,6 @@
 namespace stablecut::document {
 namespace {
 
-constexpr double kGravity = 9.80665;             // m/s^2
 constexpr double kPoundForce = 4.4482216152605;  // N
 constexpr int kMostNesting = 20;
 constexpr int kLargestExponent = 9;
@@ -46,10 +45,10 @@ constexpr std::array kNames = {
     NamedUnit{"s", {1, 0, 1, 0}},
     NamedUnit{"sec", {1, 0, 1, 0}},
     NamedUnit{"ms", {1e-3, 0, 1, 0}},
-    NamedUnit{"g", {kGravity, 1, -2, 0}},
-    NamedUnit{"gn", {kGravity, 1, -2, 0}},
-    NamedUnit{"gs", {kGravity, 1, -2, 0}},
-    NamedUnit{"mg", {kGravity * 1e-3, 1, -2, 0}},
+    NamedUnit{"g", {kStandardGravity, 1, -2, 0}},
+    NamedUnit{"gn", {kStandardGravity, 1, -2, 0}},
+    NamedUnit{"gs", {kStandardGravity, 1, -2, 0}},
+    NamedUnit{"mg", {kStandardGravity * 1e-3, 1, -2, 0}},
     NamedUnit{"n", force(1)},
     NamedUnit{"newton", force(1)},
     NamedUnit{"newtons", force(1)},
@@ -60,8 +59,8 @@ constexpr std::array kNames = {
     NamedUnit{"lb", force(kPoundForce)},
     NamedUnit{"lbs", force(kPoundForce)},
     NamedUnit{"pounds", force(kPoundForce)},
-    NamedUnit{"kgf", force(kGravity)},
-    NamedUnit{"kp", force(kGravity)},
+    NamedUnit{"kgf", force(kStandardGravity)},
+    NamedUnit{"kp", force(kStandardGravity)},
     NamedUnit{"kg", {1, -1, 2, 1}},
 };
 

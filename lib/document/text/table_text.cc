@@ -44,6 +44,17 @@ std::vector<std::string> fields_of(std::string_view line, char separator) {
   }
 }
 
+struct Line {
+  long number;            // 1-based
+  std::string_view text;  // without blanks at its ends
+  long tabs;              // before the text
+};
+
+long leading_tabs(std::string_view line) {
+  const auto first = std::min(line.find_first_not_of(kBlanks), line.size());
+  return std::count(line.begin(), line.begin() + first, '\t');
+}
+
 bool is_comment(std::string_view line) {
   return line.front() == '#' || line.front() == '%' || line.front() == '!' || line.starts_with("//");
 }
@@ -81,25 +92,29 @@ std::vector<TableRow> table_rows(const Source& source) {
     throw DataError(source.name, "", "UTF-16 text", "expected UTF-8");
   }
   const char line_end = rest.find('\n') == std::string_view::npos ? '\r' : '\n';  // old Macintosh files
-  std::vector<std::pair<long, std::string_view>> lines;
+  std::vector<Line> lines;
   for (long number = 1; !rest.empty(); ++number) {
     const auto end = rest.find(line_end);
-    const std::string_view line = trimmed(rest.substr(0, end));
+    const std::string_view whole = rest.substr(0, end), line = trimmed(whole);
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-    if (!line.empty() && !is_comment(line)) lines.emplace_back(number, line);
+    if (!line.empty() && !is_comment(line)) lines.push_back({number, line, leading_tabs(whole)});
   }
   if (lines.empty()) return {};
   // The last line is the least likely to be a header or a remark.
-  char separator = separator_of(lines.back().second);
-  if (lines.front().second.size() == 5 &&
-      lines.front().second.starts_with("sep=")) {  // a spreadsheet's own note
-    separator = lines.front().second.back();
+  char separator = separator_of(lines.back().text);
+  if (lines.front().text.size() == 5 && lines.front().text.starts_with("sep=")) {  // a spreadsheet's own note
+    separator = lines.front().text.back();
     lines.erase(lines.begin());
   }
+  // Tabs before the first field of every line indent them; more are empty cells.
+  const auto by_tabs = [](const Line& a, const Line& b) { return a.tabs < b.tabs; };
+  const long indent = lines.empty() ? 0 : std::min_element(lines.begin(), lines.end(), by_tabs)->tabs;
   std::vector<TableRow> rows;
   bool has_point = false, has_comma = false;
-  for (const auto& [number, line] : lines) {
-    rows.push_back({number, fields_of(line, separator)});
+  for (const Line& line : lines) {
+    std::vector<std::string> fields(separator == '\t' ? line.tabs - indent : 0);
+    for (std::string& field : fields_of(line.text, separator)) fields.push_back(std::move(field));
+    rows.push_back({line.number, std::move(fields)});
     for (std::string& field : rows.back().fields) {
       field = plain_minus(std::move(field));
       // A comma left inside a field is a decimal comma where the whole field is then a number.
@@ -110,7 +125,7 @@ std::vector<TableRow> table_rows(const Source& source) {
       (comma ? has_comma : has_point) |= pointed.find('.') != std::string::npos;
       if (has_comma && has_point) {
         throw DataError(
-            source.name, line_place(number), field,
+            source.name, line_place(line.number), field,
             "expected one decimal mark in the file, commas or points, and no thousands separators");
       }
       field = std::move(pointed);

@@ -16,8 +16,8 @@ struct TableRow {
 
 /// The rows of the text. The separator is the first of tab, semicolon, bar, comma that the last line holds,
 /// else blanks, or what a first line `sep=;` says. CRLF, a byte-order mark and quotes around a field are
-/// taken off; a separator inside quotes is none. A comma inside a field is read as a point where the field is
-/// then a number.
+/// taken off, and tabs by which all lines are indented; a separator inside quotes is none. A comma inside a
+/// field is read as a point where the field is then a number.
 std::vector<TableRow> table_rows(const Source& source);
 
 /// True when no field of the row is a number: a header.
