@@ -60,8 +60,9 @@ struct Joint {
   /// Of angle + ratio * followed angle, where the joint is coupled: what its mechanics allow.
   double coupled_min_rad = -std::numeric_limits<double>::infinity();
   double coupled_max_rad = std::numeric_limits<double>::infinity();
-  std::optional<LinkMass> mass;   ///< of the link
-  std::vector<Capsule> capsules;  ///< that enclose the link; read and kept, not used by any search so far
+  std::optional<double> max_speed;  ///< rad/s, of the controller angle
+  std::optional<LinkMass> mass;     ///< of the link
+  std::vector<Capsule> capsules;    ///< that enclose the link; read and kept, not used by any search so far
 
   /// Of link i-1: the turn from axis i-1 to axis i about x of frame i-1. A sine or cosine within 1e-14 of a
   /// whole number is taken as that number.
@@ -85,7 +86,7 @@ struct Robot {
   Eigen::Isometry3d tool = Eigen::Isometry3d::Identity();
 
   std::vector<Capsule> base_capsules;  ///< of what does not move, frame 0; not used so far, as those of links
-  double keep_out_radius_m = 0;  ///< of a cylinder round axis 1 that the tool keeps out of; not used so far
+  double keep_out_radius_m = 0;  ///< of a cylinder round axis 1 that the tool keeps out of on paths; 0: none
 
   Eigen::Isometry3d tool_in_frame6() const { return flange * tool; }
   /// By how much joint j turns: its controller angle, with what a coupling adds to it.

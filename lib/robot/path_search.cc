@@ -1,0 +1,259 @@
+#include "robot/path_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/units.h"
+#include "robot/path_obstacles.h"
+
+namespace stablecut::robot {
+namespace {
+
+constexpr double kLadderStep = kPi / 180;
+constexpr double kTieSmoothness = 1;      // of the turns' weight where the largest cost is settled
+constexpr double kMeanSmoothness = 1e-4;  // the same beside the mean
+constexpr double kSameCost = 1e-9;        // relative: branches that are as good
+constexpr double kCostRounding = 1e-12;   // relative
+constexpr double kFinerSteps[] = {kPi / 720, kPi / 2880, kPi / 11520, kPi / 46080};
+constexpr int kFinerRungs = 4;    // on either side of what was found
+constexpr int kMostRounds = 8;    // with one step
+constexpr double kNoGain = 1e-6;  // relative
+constexpr double kStairStep =
+    3 * kPi / 180;  // rad that every joint has to be able to turn from stair to stair
+constexpr std::size_t kManyPoints = 2000;
+constexpr double kRampStep = kPi / 360;
+constexpr int kRampRungs = 8;
+
+// A motion through a stretch and what it is worth.
+struct Found {
+  PathChain chain;
+  double objective = 0;  // the largest cost, or the sum
+};
+
+class Search {
+ public:
+  Search(const PathModel& model, int threads, const Progress& progress)
+      : model_(model),
+        mean_(model.task().mean_objective),
+        threads_(threads),
+        progress_(progress),
+        limits_(model.step_limits()),
+        whole_(model.whole_ladder(kLadderStep)) {}
+
+  PathSearch run() {
+    const std::size_t end = model_.size() - 1;
+    set_stairs();
+    std::vector<PathStretch> stairs, plain;
+    if (!stair_ends_.empty()) stairs = path_stretches(chain_task(whole_, stair_limits_, 0.4), 0, end, mean_);
+    PathSearch result;
+    // On a long path the stairs alone are looked at, as long as they lead through.
+    if (stairs.size() == 1 && stairs[0].first == 0 && stairs[0].last == end && end >= kManyPoints)
+      solve(stairs[0], plain, stairs, result.parts);
+    if (result.parts.empty()) {
+      plain = path_stretches(chain_task(whole_, limits_, 0.5), 0, end, mean_);
+      const bool fewer = !stairs.empty() && stairs.size() < plain.size();
+      for (const PathStretch& stretch : fewer ? stairs : plain) solve(stretch, plain, stairs, result.parts);
+    }
+    result.obstacles = path_obstacles(model_, limits_, result.parts, threads_);
+    if (progress_) progress_(1);
+    return result;
+  }
+
+ private:
+  ChainTask chain_task(const Ladder& ladder, const std::vector<StepLimit>& limits, double share) {
+    const double from = done_;
+    done_ += share * (1 - done_);
+    Progress part;
+    if (progress_) part = [this, from, to = done_](double at) { progress_(from + (to - from) * at); };
+    return {model_, ladder, limits, 0xFF, threads_, part};
+  }
+
+  // Where points are so near that no joint can turn by a rung between them: stairs of several points, between
+  // which joints and tool may turn by what the whole stair allows, and within which the tool does not turn.
+  void set_stairs() {
+    stair_limits_ = limits_;
+    for (StepLimit& limit : stair_limits_) limit.turn = 0;
+    StepLimit sum{JointAngles::Zero(), 0};
+    bool needed = false;
+    for (std::size_t i = 1; i < limits_.size(); ++i) {
+      sum.joint += limits_[i].joint;
+      sum.turn += limits_[i].turn;
+      const bool enough = sum.joint.minCoeff() >= kStairStep && sum.turn >= kStairStep;
+      needed = needed || limits_[i].joint.minCoeff() < kLadderStep || limits_[i].turn < kLadderStep;
+      if (!enough && i + 1 < limits_.size()) continue;
+      stair_limits_[i] = {sum.joint.cwiseMin(kPi / 2), std::min(sum.turn, kPi / 2)};
+      stair_ends_.push_back(i);
+      sum = {JointAngles::Zero(), 0};
+    }
+    if (!needed) stair_ends_.clear();
+  }
+
+  void solve(const PathStretch& stretch, const std::vector<PathStretch>& plain,
+             const std::vector<PathStretch>& stairs, std::vector<PathPart>& parts) {
+    const auto same = [&](const PathStretch& other) {
+      return other.first == stretch.first && other.last == stretch.last;
+    };
+    std::optional<Found> best;
+    const auto offer = [&](std::optional<Found> found) {
+      if (found && (!best || found->objective < best->objective)) best = std::move(found);
+    };
+    const auto stair = std::find_if(stairs.begin(), stairs.end(), same);
+    if (stair != stairs.end()) offer(from_stairs(*stair));
+    const auto direct = std::find_if(plain.begin(), plain.end(), same);
+    if (direct != plain.end()) offer(from_ladder(*direct));
+    if (best) {
+      parts.push_back(part_of(stretch.first, *best));
+      return;
+    }
+    // Stairs that no real motion follows.
+    for (const PathStretch& part : plain) {
+      if (part.first > stretch.last || part.last < stretch.first) continue;
+      const PathStretch inside = clipped(part, stretch);
+      if (inside.first <= inside.last) {
+        if (const auto found = from_ladder(inside)) parts.push_back(part_of(inside.first, *found));
+      }
+    }
+  }
+
+  PathStretch clipped(const PathStretch& part, const PathStretch& to) {
+    if (part.first >= to.first && part.last <= to.last) return part;
+    const std::size_t first = std::max(part.first, to.first), last = std::min(part.last, to.last);
+    return path_stretches(chain_task(whole_, limits_, 0), first, last, mean_).front();
+  }
+
+  // The branches of a stretch that are as good as the best.
+  static unsigned best_branches(const PathStretch& stretch) {
+    unsigned branches = 0;
+    for (int b = 0; b < kBranches; ++b) {
+      if (stretch.objective[b] <= stretch.best() * (1 + kSameCost)) branches |= 1U << b;
+    }
+    return branches;
+  }
+
+  ChainWeights weights(double objective, std::size_t count) const {
+    if (mean_) return {objective / static_cast<double>(count), kMeanSmoothness};
+    return {objective, kTieSmoothness, objective * (1 + kCostRounding)};
+  }
+
+  std::optional<Found> best_of(ChainTask task, const PathStretch& stretch) const {
+    task.branches = best_branches(stretch);
+    auto chain = best_chain(task, stretch.first, stretch.last,
+                            weights(stretch.best(), stretch.last - stretch.first + 1));
+    if (!chain) return std::nullopt;
+    return Found{std::move(*chain), stretch.best()};
+  }
+
+  // The best about a known motion, turned by up to `rungs` steps either way; nothing where none leads
+  // through.
+  std::optional<Found> around(std::size_t first, int branch, const std::vector<double>& turn, double step,
+                              int rungs) {
+    Ladder ladder;
+    ladder.base.assign(model_.size(), 0);
+    for (std::size_t i = 0; i < turn.size(); ++i) ladder.base[first + i] = turn[i] - rungs * step;
+    ladder.step = step;
+    ladder.rungs = 2 * rungs + 1;
+    ChainTask task = chain_task(ladder, limits_, 0);
+    task.progress = nullptr;
+    task.branches = 1U << branch;
+    const auto stretches = path_stretches(task, first, first + turn.size() - 1, mean_);
+    if (stretches.size() != 1 || stretches[0].first != first || stretches[0].last != first + turn.size() - 1)
+      return std::nullopt;
+    return best_of(task, stretches[0]);
+  }
+
+  std::optional<Found> from_ladder(const PathStretch& stretch) {
+    auto found = best_of(chain_task(whole_, limits_, 0.5), stretch);
+    return found ? std::optional(refined(stretch.first, std::move(*found))) : std::nullopt;
+  }
+
+  std::optional<Found> from_stairs(const PathStretch& stretch) {
+    const auto stairs = best_of(chain_task(whole_, stair_limits_, 0.5), stretch);
+    if (!stairs) return std::nullopt;
+    auto found = around(stretch.first, stairs->chain.branch, ramps(stretch.first, stairs->chain.turn),
+                        kRampStep, kRampRungs);
+    return found ? std::optional(refined(stretch.first, std::move(*found))) : std::nullopt;
+  }
+
+  // Straight from the middle of one stair to the next.
+  std::vector<double> ramps(std::size_t first, const std::vector<double>& turn) const {
+    std::vector<double> at{0}, value{turn.front()};
+    std::size_t begin = 0;
+    for (const std::size_t stair : stair_ends_) {
+      if (stair <= first) continue;
+      const std::size_t end = std::min(stair - first, turn.size());
+      if (end > begin) {
+        at.push_back(0.5 * static_cast<double>(begin + end - 1));
+        value.push_back(turn[begin]);
+      }
+      begin = end;
+    }
+    at.push_back(static_cast<double>(turn.size()));
+    value.push_back(turn.back());
+    std::vector<double> result(turn.size());
+    std::size_t k = 1;
+    for (std::size_t i = 0; i < turn.size(); ++i) {
+      while (k + 1 < at.size() && at[k] < static_cast<double>(i)) ++k;
+      const double width = at[k] - at[k - 1];
+      const double share = width > 0 ? std::clamp((static_cast<double>(i) - at[k - 1]) / width, 0.0, 1.0) : 1;
+      result[i] = value[k - 1] + share * (value[k] - value[k - 1]);
+    }
+    return result;
+  }
+
+  Found refined(std::size_t first, Found found) {
+    for (const double step : kFinerSteps) {
+      for (int round = 0; round < kMostRounds; ++round) {
+        auto next = around(first, found.chain.branch, found.chain.turn, step, kFinerRungs);
+        if (!next || next->objective > found.objective) break;
+        const bool gained = next->objective < found.objective * (1 - kNoGain) ||
+                            next->chain.total < found.chain.total * (1 - kNoGain);
+        found = std::move(*next);
+        if (!gained) break;
+      }
+    }
+    return found;
+  }
+
+  PathPart part_of(std::size_t first, const Found& found) const {
+    PathPart part{first, found.chain.branch, {}, 0};
+    const std::size_t count = found.chain.turn.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      PathPose pose;
+      pose.turn = found.chain.turn[i];
+      pose.angles = model_.angles(first + i, pose.turn, part.branch, found.chain.copy[i]);
+      pose.cost = model_.pose(first + i, pose.turn, part.branch)->cost;
+      part.objective = mean_ ? part.objective + pose.cost / static_cast<double>(count)
+                             : std::max(part.objective, pose.cost);
+      if (i > 0) {
+        const JointAngles step = pose.angles - part.poses.back().angles;
+        // A move that only turns takes the time that its joints need.
+        double time = model_.frames().time[first + i];
+        if (!(time > 0)) time = step.cwiseAbs().cwiseQuotient(model_.task().max_speed).maxCoeff();
+        pose.time = part.poses.back().time + time;
+        if (time > 0) pose.speed = step / time;
+      }
+      part.poses.push_back(pose);
+    }
+    return part;
+  }
+
+  const PathModel& model_;
+  const bool mean_;
+  const int threads_;
+  const Progress& progress_;
+  const std::vector<StepLimit> limits_;
+  const Ladder whole_;
+  std::vector<StepLimit> stair_limits_;
+  std::vector<std::size_t>
+      stair_ends_;  // the points that the stairs begin with, but the first; empty: none needed
+  double done_ = 0;
+};
+
+}  // namespace
+
+PathSearch search_path(const PathModel& model, int threads, const Progress& progress) {
+  return Search(model, threads, progress).run();
+}
+
+}  // namespace stablecut::robot

@@ -1,0 +1,271 @@
+#include <catch2/catch.hpp>
+#include <functional>
+
+#include "robot/path_brute_force_test.h"
+#include "robot/path_fixtures_test.h"
+#include "robot/pose_report.h"
+#include "robot/singularity_lanes.h"
+
+namespace stablecut::robot {
+namespace {
+
+using namespace fixtures;
+
+PathCell cell_for(PathCell cell, int kind) {
+  if (kind == 3) cell.robot = with_tool_offset(cell.robot, 0.15);
+  return cell;
+}
+
+ToolPath path_of(const PathCell& cell, int kind, int count, double speed) {
+  const std::array<ToolPath (*)(const PathCell&, int, double), 4> kinds{line_path, circle_path, spiral_path,
+                                                                        zigzag_path};
+  return kinds[kind](cell, count, speed);
+}
+
+// Whatever a part says holds by forward kinematics, the limits and the speeds.
+void check_part(const Robot& robot, const PathTask& task, const PathModel& model, const PathPart& part) {
+  double largest = 0, sum = 0;
+  for (std::size_t i = 0; i < part.poses.size(); ++i) {
+    const PathPose& pose = part.poses[i];
+    const ToolPathPoint& point = task.path[part.first + i];
+    const RobotPose at = robot_pose(robot, pose.angles);
+    REQUIRE((at.tool.translation() - point.position).norm() < 1e-9);
+    REQUIRE((at.tool.linear().col(2) - point.axis).norm() < 1e-9);
+    REQUIRE(limit_margin_rad(robot, pose.angles) >= task.limit_margin_rad - 1e-9);
+    REQUIRE(is_away_from_singularities(at, task.singularity_margin * (1 - 1e-6)));
+    const double score = stiffness_score(translational_compliance(at, task.elasticity), at.tool.linear(),
+                                         point_task(task, model.frames(), part.first + i));
+    REQUIRE(std::abs(path_cost(*task.stiffness.index, score) / pose.cost - 1) < 1e-7);
+    largest = std::max(largest, pose.cost);
+    sum += pose.cost;
+    if (i == 0) continue;
+    const JointAngles step = (pose.angles - part.poses[i - 1].angles).cwiseAbs();
+    REQUIRE((step.array() <= (task.max_speed * model.frames().time[part.first + i]).array()).all());
+    REQUIRE((step.array() <= kPi / 2).all());
+    REQUIRE(std::abs(pose.turn - part.poses[i - 1].turn) <=
+            task.most_turn_per_metre * model.frames().distance[part.first + i] + 1e-9);
+  }
+  const double objective = task.mean_objective ? sum / static_cast<double>(part.poses.size()) : largest;
+  CHECK(std::abs(part.objective / objective - 1) < 1e-12);
+}
+
+TEST_CASE("paths are not worse than brute force in steps of a degree") {
+  const PathCell plain = path_cells()[GENERATE(0, 1, 2)];
+  const int kind = GENERATE(0, 1, 2, 3);
+  const bool mean = GENERATE(false, true);
+  const PathCell cell = cell_for(plain, kind);
+  CAPTURE(cell.name, kind, mean);
+  // Of the longer paths the last points, some 100 mm apart.
+  ToolPath path = path_of(cell, kind, kind == 2 ? 120 : kind == 3 ? 60 : 20, kind == 2 ? 0.6 : 1);
+  path.erase(path.begin(), path.end() - 20);
+  PathTask task = path_task(cell, std::move(path), "deflection");
+  task.mean_objective = mean;
+  const PathModel model(cell.robot, task);
+  const PathSearch search = search_path(model, 2);
+  REQUIRE(search.parts.size() == 1);
+  CHECK(search.obstacles.empty());
+  check_part(cell.robot, task, model, search.parts[0]);
+  // Joints turn by 8 to 30 degrees a step: a redundancy that turns by more than 60 needs all of them.
+  const double brute = brute_force_objective(cell.robot, task, 60);
+  REQUIRE(std::isfinite(brute));
+  CHECK(search.parts[0].objective <= brute * (1 + 1e-3));
+}
+
+TEST_CASE("a path in one motion is the same on any number of threads") {
+  const PathCell cell = cell_for(path_cells()[0], 3);
+  const PathTask task = path_task(cell, zigzag_path(cell, 50, 0.5), "deflection");
+  const PathModel model(cell.robot, task);
+  const PathSearch one = search_path(model, 1), three = search_path(model, 3);
+  REQUIRE(one.parts.size() == three.parts.size());
+  for (std::size_t i = 0; i < one.parts[0].poses.size(); ++i)
+    CHECK(one.parts[0].poses[i].angles == three.parts[0].poses[i].angles);
+}
+
+TEST_CASE("points so near that no joint turns by a degree between them") {
+  // 0.4 mm apart at 50 mm/s: 8 ms, in which the slowest joint turns by 0.7 degrees.
+  const PathCell cell = cell_for(path_cells()[0], 3);
+  PathTask dense = path_task(cell, line_path(cell, 2501, 0.05), "deflection");
+  dense.stiffness.force_n = Eigen::Vector3d(400, 0, 0);
+  dense.force_in_feed = false;
+  PathTask coarse = dense;
+  coarse.path = line_path(cell, 26, 0.05);
+  const PathModel dense_model(cell.robot, dense), coarse_model(cell.robot, coarse);
+  const PathSearch found = search_path(dense_model, 2), reference = search_path(coarse_model, 2);
+  REQUIRE(found.parts.size() == 1);
+  REQUIRE(reference.parts.size() == 1);
+  check_part(cell.robot, dense, dense_model, found.parts[0]);
+  // The coarse path's points are among the dense one's and are bound by less.
+  CHECK(found.parts[0].objective >= reference.parts[0].objective * (1 - 1e-5));
+  CHECK(found.parts[0].objective <= reference.parts[0].objective * 1.01);
+}
+
+TEST_CASE("limits on the turning of the redundancy and its interval are kept") {
+  const PathCell cell = cell_for(path_cells()[0], 3);
+  PathTask task = path_task(cell, zigzag_path(cell, 60, 0.1), "deflection");
+  const PathModel free_model(cell.robot, task);
+  const double free = search_path(free_model, 2).parts.at(0).objective;
+  task.most_turn_per_metre = radians_from_degrees(20);
+  const PathModel slow_model(cell.robot, task);
+  const PathSearch slow = search_path(slow_model, 2);
+  REQUIRE(slow.parts.size() == 1);
+  check_part(cell.robot, task, slow_model, slow.parts[0]);
+  CHECK(slow.parts[0].objective >= free * (1 - 1e-5));
+  task.redundancy = Range{radians_from_degrees(20), radians_from_degrees(50), 7};
+  const PathModel bound_model(cell.robot, task);
+  const PathSearch bound = search_path(bound_model, 2);
+  REQUIRE(bound.parts.size() == 1);
+  for (const PathPose& pose : bound.parts[0].poses) {
+    const double degrees = degrees_from_radians(redundancy_angle(robot_pose(cell.robot, pose.angles).tool));
+    CHECK(degrees > 20 - 1e-6);
+    CHECK(degrees < 50 + 1e-6);
+  }
+}
+
+TEST_CASE("stretches that cannot be driven, and what they break") {
+  const PathCell cell = path_cells()[0];
+  PathTask task = path_task(cell, {}, "weakest");
+  const auto search = [&] {
+    const PathModel model(cell.robot, task);
+    const PathSearch found = search_path(model, 2);
+    std::size_t driven = 0;
+    for (const PathPart& part : found.parts) {
+      check_part(cell.robot, task, model, part);
+      driven += part.poses.size();
+    }
+    return std::pair(found, driven);
+  };
+  SECTION("reach") {
+    for (int i = 0; i < 31; ++i) task.path.push_back(path_point(cell, 0.05 * i, 0, 0, 0, 0, 0.1));
+    const auto [found, driven] = search();
+    REQUIRE(found.obstacles.size() >= 1);
+    CHECK(found.obstacles.back().last == 30);
+    CHECK(found.obstacles.back().fault.kind == PoseFault::Kind::kReach);
+    CHECK(driven == found.obstacles.front().first);
+  }
+  SECTION("a joint's speed") {
+    task.path = line_path(cell, 41, 0.05);
+    for (int i = 15; i <= 20; ++i) task.path[i].speed = 5;
+    const auto [found, driven] = search();
+    CHECK(driven == 41);
+    REQUIRE(found.obstacles.size() == 1);
+    const PathObstacle& obstacle = found.obstacles[0];
+    CHECK(obstacle.between);
+    CHECK(obstacle.speed);
+    CHECK(obstacle.first == 14);
+    CHECK(obstacle.last == 20);
+    CHECK(obstacle.fault.joint == 0);
+    // About 1.8 m from axis 1: joint 1 turns at 5 m/s over that distance.
+    CHECK(obstacle.fault.missing == Approx(5 / 1.8 / task.max_speed[0]).epsilon(0.05));
+  }
+  SECTION("keep-out") {
+    Robot robot = cell.robot;
+    robot.keep_out_radius_m = 1.7;
+    task.path = circle_path(cell, 41, 0.05);
+    const PathModel model(robot, task);
+    const PathSearch found = search_path(model, 2);
+    REQUIRE(found.obstacles.size() == 1);
+    CHECK(found.obstacles[0].fault.kind == PoseFault::Kind::kKeepOut);
+    for (std::size_t i = 0; i < task.path.size(); ++i) {
+      const bool inside = task.path[i].position.head<2>().norm() < 1.7;
+      CHECK(inside == (i >= found.obstacles[0].first && i <= found.obstacles[0].last));
+    }
+  }
+  SECTION("a joint that is wound up") {
+    // Round axis 1 by more than its range.
+    const PathCell here{"", cell.robot, {0, 0, 1.0}, cell.stiffness, cell.max_speed_deg};
+    for (int i = 0; i <= 80; ++i) {
+      const double at = radians_from_degrees(-180 + 5 * i);
+      task.path.push_back(path_point(here, 1.8 * std::cos(at), 1.8 * std::sin(at), 0, 0, 0, 0.1));
+    }
+    const auto [found, driven] = search();
+    CHECK(driven == 81);
+    REQUIRE(found.obstacles.size() == 1);
+    CHECK(found.obstacles[0].between);
+    CHECK(!found.obstacles[0].speed);
+    CHECK(found.obstacles[0].fault.kind == PoseFault::Kind::kLimit);
+    CHECK(found.obstacles[0].fault.joint == 0);
+  }
+}
+
+TEST_CASE("why the worst point is not better") {
+  const PathCell cell = cell_for(path_cells()[0], 3);
+  PathTask task = path_task(cell, line_path(cell, 11, 0.1), "deflection");
+  const PathModel model(cell.robot, task);
+  const PathSearch free = search_path(model, 1);
+  const WorstPoint worst = worst_point(model, free.parts.at(0));
+  CHECK(free.parts[0].poses[worst.point].cost == free.parts[0].objective);
+  CHECK(worst.better_cost <= free.parts[0].objective);
+  task.max_speed *= 0.01;
+  task.path.resize(3);
+  task.path[1].speed = task.path[2].speed = 0.0002;
+  const PathModel slow(cell.robot, task);
+  CHECK_NOTHROW(search_path(slow, 1));
+}
+
+TEST_CASE("the arms' singularity test agrees with that of poses") {
+  std::mt19937_64 generator(3);
+  for (const PathCell& cell : path_cells()) {
+    const InverseKinematics inverse(cell.robot);
+    int away_count = 0, near_count = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+      const Eigen::Isometry3d tool = robot_pose(cell.robot, random_angles(cell.robot, generator)).tool;
+      ArmLanes lanes;
+      solve_arms(inverse.constants(), inverse.target_of(tool), lanes);
+      const Eigen::Vector3d point = inverse.home_from_base() * tool.translation();
+      bool away[kArms];
+      constexpr double kMargin = 0.1;
+      arms_away_from_singularities(lanes, point.data(), kMargin, away);
+      for (int arm = 0; arm < kArms; ++arm) {
+        if (!std::isfinite(lanes.limit_margin[arm])) continue;
+        JointAngles angles;
+        for (int j = 0; j < kJoints; ++j) angles[j] = lanes.angle[j][arm];
+        const double margin = singularity_margin(robot_pose(cell.robot, angles));
+        if (std::abs(margin - kMargin) < 1e-6) continue;
+        CHECK(away[arm] == (margin > kMargin));
+        ++(away[arm] ? away_count : near_count);
+      }
+    }
+    CHECK(away_count > 20);
+    CHECK(near_count > 20);
+  }
+}
+
+TEST_CASE("the tool's distance to the cylinder round axis 1") {
+  Robot robot = kr360();
+  CHECK(std::isinf(keep_out_margin_m(robot, robot_pose(robot, JointAngles::Zero()))));
+  robot.keep_out_radius_m = 0.4;
+  std::mt19937_64 generator(5);
+  for (int trial = 0; trial < 50; ++trial) {
+    robot.base = random_frame(generator, 1);
+    robot.tool = random_frame(generator, 0.5);
+    const RobotPose pose = robot_pose(robot, random_angles(robot, generator));
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int k = 0; k <= 20000; ++k) {
+      const Eigen::Vector3d at =
+          robot.base.inverse() *
+          (pose.flange.translation() + k / 20000.0 * (pose.tool.translation() - pose.flange.translation()));
+      nearest = std::min(nearest, at.head<2>().norm());
+    }
+    // Samples of a tool of at most 0.9 m lie within 0.05 mm.
+    CHECK(std::abs(keep_out_margin_m(robot, pose) - (nearest - 0.4)) < 5e-5);
+  }
+}
+
+TEST_CASE("a turn that stays is no turning about the tool's axis") {
+  const PathCell cell = path_cells()[0];
+  const ToolPath path = spiral_path(cell, 2000, 0.1);
+  const PathFrames frames = path_frames(path);
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Eigen::Matrix3d step = frames.tool[i] * frames.tool[i - 1].transpose();
+    const Eigen::AngleAxisd turn(step);
+    // The least rotation between the axes has its axis square to both.
+    CHECK(std::abs(turn.angle() * turn.axis().dot(path[i].axis)) < 1e-9);
+    CHECK((frames.tool[i].col(2) - path[i].axis).norm() < 1e-12);
+    const Eigen::Isometry3d frame = tool_frame(path, frames, i, 0.3);
+    CHECK(std::abs(std::remainder(redundancy_angle(frame) - frames.redundancy[i] - 0.3, kTwoPi)) < 1e-9);
+    CHECK(std::abs(frames.time[i] - (path[i].position - path[i - 1].position).norm() / 0.1) < 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace stablecut::robot
