@@ -91,6 +91,10 @@ Json samples_of(const Range& range) {
 
 }  // namespace
 
+Json pose_report_to_json(const robot::PoseReport& report, const robot::StiffnessTask& task) {
+  return to_json(report, task);
+}
+
 Json pose_to_json(const PoseDocument& document, const robot::Robot& robot) {
   Json result = {{"format", "stablecut/pose/1"}, {"index", index_to_json(*document.task.index)}};
   add_plane(result, document.plane);

@@ -30,6 +30,9 @@ struct PoseDocument {
   std::vector<std::string> names;  ///< of the evaluated poses; empty where one has none
 };
 
+/// One pose, as in every document of poses.
+Json pose_report_to_json(const robot::PoseReport& report, const robot::StiffnessTask& task);
+
 /// The documents without provenance.
 Json pose_to_json(const PoseDocument& document, const robot::Robot& robot);
 Json evaluation_to_json(const PoseDocument& document);

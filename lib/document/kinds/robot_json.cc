@@ -1,21 +1,20 @@
 #include "document/kinds/robot_json.h"
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <cmath>
 
 #include "base/units.h"
+#include "document/kinds/frame_json.h"
 #include "document/kinds/joints_json.h"
 #include "document/text/node.h"
 
 namespace stablecut::document {
 namespace {
 
-constexpr double kRotationTolerance = 1e-6;
 constexpr Bound kAngle{.least = -1e4, .most = 1e4, .words = "an angle in degrees"};
 constexpr Bound kLength{.least = -1e6, .most = 1e6, .words = "a length in mm"};
 constexpr Bound kRadius{.least = 0, .most = 1e6, .open_least = true, .words = "a radius above 0 mm"};
 constexpr Bound kMass{.least = 0, .most = 1e6, .words = "a mass not below 0 kg"};
+constexpr Bound kSpeed{.least = 0, .most = 1e6, .open_least = true, .words = "a speed above 0 deg/s"};
 constexpr Bound kRatio{.least = -100, .most = 100, .words = "a ratio"};
 
 std::vector<robot::Capsule> capsules_from(const Node& node) {
@@ -39,7 +38,8 @@ void read_link(const Node& node, robot::Joint& joint) {
 
 robot::Joint joint_from(const Node& node, int index) {
   node.check_names({"name", "a_mm", "alpha_deg", "d_mm", "theta_sign", "theta_offset_deg", "min_deg",
-                    "max_deg", "coupled_min_deg", "coupled_max_deg", "mass_kg", "center_mm", "capsules"});
+                    "max_deg", "coupled_min_deg", "coupled_max_deg", "max_speed_deg_per_s", "mass_kg",
+                    "center_mm", "capsules"});
   robot::Joint joint;
   joint.name = "A" + std::to_string(index + 1);
   if (const auto name = node.find("name")) joint.name = name->text();
@@ -59,6 +59,8 @@ robot::Joint joint_from(const Node& node, int index) {
     if (!(joint.coupled_min_rad < joint.coupled_max_rad))
       most->fail("expected an angle above coupled_min_deg");
   }
+  if (const auto speed = node.find("max_speed_deg_per_s"))
+    joint.max_speed = radians_from_degrees(speed->number(kSpeed));
   read_link(node, joint);
   return joint;
 }
@@ -99,26 +101,6 @@ void check_coupled_ranges(const Node& joint_node, const robot::Joint& joint) {
     if (const auto bound = joint_node.find(name))
       bound->fail("expected with an entry for " + joint.name + " in coupling only");
   }
-}
-
-Eigen::Isometry3d frame_from(const Node& node) {
-  node.check_names({"translation_mm", "rotation"});
-  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
-  frame.translation() = vector_from(node.at("translation_mm"), kLength) * 1e-3;
-  const Node rotation = node.at("rotation");
-  const auto rows = rotation.items();
-  if (rows.size() != 3) rotation.fail("expected 3 rows");
-  Eigen::Matrix3d matrix;
-  for (int i = 0; i < 3; ++i) matrix.row(i) = vector_from(rows[i]).transpose();
-  const double error = (matrix * matrix.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(error <= kRotationTolerance) || matrix.determinant() < 0) {
-    rotation.fail("expected a rotation matrix: rows of length 1 at right angles, right-handed");
-  }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  frame.linear() = svd.matrixU() * svd.matrixV().transpose();
-  // The nearest rotation, unless the matrix is one already.
-  if (error <= 1e-15) frame.linear() = matrix;
-  return frame;
 }
 
 }  // namespace

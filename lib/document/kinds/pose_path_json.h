@@ -1,0 +1,28 @@
+// Kind `pose-path`: the joint angles along a tool path.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "document/text/json_text.h"
+#include "robot/path_search.h"
+#include "robot/pose_report.h"
+
+namespace stablecut::document {
+
+struct PosePathDocument {
+  const robot::PathTask& task;
+  const robot::PathSearch& search;
+  std::vector<robot::PoseReport> reports;  ///< of all poses, part after part
+  std::vector<double> keep_out_margin_m;   ///< likewise; empty where the robot keeps out of nothing
+  std::size_t worst_part = 0;              ///< the part that holds the worst point
+  robot::WorstPoint worst;
+};
+
+/// Without provenance.
+Json pose_path_to_json(const PosePathDocument& document, const robot::Robot& robot);
+
+/// Columns `time_s`, the point's number, the joints by name in degrees; a header, and a line for each pose.
+std::string joint_angles_csv(const robot::PathSearch& search, const robot::Robot& robot);
+
+}  // namespace stablecut::document
