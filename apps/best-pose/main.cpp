@@ -1,5 +1,5 @@
 // best-pose: joint stiffness and a plane in, the stiffest pose out, and a map of the plane; or, with
-// --evaluate, scores of given poses.
+// --evaluate, scores of given poses; or, with --path, the motion along a tool path.
 
 #include <cmath>
 #include <optional>
@@ -15,6 +15,7 @@
 #include "document/kinds/pose_json.h"
 #include "document/kinds/pose_list_json.h"
 #include "document/kinds/robot_json.h"
+#include "path_mode.h"
 #include "search_task.h"
 #include "words.h"
 
@@ -61,7 +62,7 @@ class BestPose : public cli::Tool {
     cli::begin_group(app, "Stiffness");
     cli::add_choice_option(app, "--index", index_, index_names(), index_help());
     cli::add_vector_option(app, "--force", force_, "Force on the tool point, N");
-    cli::add_choice_option(app, "--force-frame", force_frame_, "base|tool",
+    cli::add_choice_option(app, "--force-frame", force_frame_, "base|tool|feed",
                            "Frame of --force (default: base)");
     cli::begin_group(app, "Search");
     cli::add_number_option(app, "--limit-margin", where_.limit_margin_deg,
@@ -82,17 +83,22 @@ class BestPose : public cli::Tool {
     cli::begin_group(app, "Evaluation");
     add_file_option(app, "--evaluate", evaluate_path_,
                     "Instead of a search, score and rank the poses of a pose list");
+    cli::begin_group(app, "Path");
+    add_file_option(app, "--path", along_.path, "Instead of a plane, the motion along a tool path");
+    add_path_options(app, along_);
+    add_file_option(app, "--joints", along_.joints_csv, "Also write the joint angles along the path as CSV");
   }
 
   void run() override {
     const bool evaluate = !evaluate_path_.empty();
     cli::refuse_if(robot_path_.empty(), "--robot: missing: expected a robot document");
     cli::refuse_if(evaluate && !map_path_.empty(), "--map: expected a search, not --evaluate");
-    cli::refuse_if(!evaluate && !where_.has_plane(),
+    check_path_options();
+    cli::refuse_if(!evaluate && !along_.given() && !where_.has_plane(),
                    "--height: missing: expected the height of the plane, mm");
     document::PoseDocument document;
     document.task = stiffness_task();
-    document.plane = search_plane(where_);
+    if (!along_.given()) document.plane = search_plane(where_);
     const document::Input robot_input = read_input(robot_path_, cli::InputForm::kJson);
     const robot::Robot robot = document::robot_from_json(robot_input.document, robot_input.source);
     const document::Input input = read_main_input(cli::InputForm::kJson);
@@ -106,6 +112,7 @@ class BestPose : public cli::Tool {
     if (const auto bad = robot::unsupported_geometry(robot)) {
       throw unsupported_robot(*bad, robot, robot_input.source);
     }
+    if (along_.given()) return drive_path(robot, elasticity, document);
     try {
       search(robot, elasticity, document);
     } catch (const robot::NoPose& none) {
@@ -113,8 +120,41 @@ class BestPose : public cli::Tool {
     }
   }
 
+  void check_path_options() const {
+    const std::string stray = along_.without_path();
+    cli::refuse_if(!along_.given() && !stray.empty(), stray + ": expected with --path only");
+    cli::refuse_if(!along_.given() && force_frame_ == "feed",
+                   "--force-frame: feed: expected with --path only");
+    if (!along_.given()) return;
+    cli::refuse_if(!evaluate_path_.empty(), "--path: expected a path or --evaluate");
+    cli::refuse_if(!map_path_.empty(), "--map: expected a search in a plane, not --path");
+    cli::refuse_if(where_.height_mm || where_.x_mm || where_.y_mm || where_.tool_axis,
+                   "--path: expected without --height, --x, --y and --tool-axis");
+  }
+
+  // A path is read and scored like the planes; without an index its deflection counts, or its weakest
+  // direction where no force is given.
+  void drive_path(const robot::Robot& robot, const robot::Elasticity& elasticity,
+                  const document::PoseDocument& document) {
+    const document::Input input = read_input(along_.path, cli::InputForm::kByContent);
+    const robot::PathTask task = path_task(read_path(input, along_, where_), along_, where_, robot,
+                                           elasticity, document.task, force_frame_ == "feed");
+    PathResult result;
+    {
+      cli::ProgressBar bar("best-pose: path", !quiet());
+      result = solve_path(robot, task, document.errors, threads(), [&](double share) { bar.show(share); });
+    }
+    if (!result.undone.empty()) {
+      if (!along_.partial || result.document.is_null()) throw NoAnswer(along_.path + ": " + result.undone);
+      warn(along_.path + ": " + result.undone);
+    }
+    write_document(main_output(), std::move(result.document));
+    if (!along_.joints_csv.empty()) write_text(along_.joints_csv, std::move(result.joints_csv));
+  }
+
   robot::StiffnessTask stiffness_task() const {
     robot::StiffnessTask task;
+    if (along_.given()) task.index = &robot::stiffness_index(force_ ? "deflection" : "weakest");
     if (!index_.empty()) task.index = &robot::stiffness_index(index_);
     if (force_) {
       task.force_n = Eigen::Vector3d(force_->data());
@@ -184,6 +224,7 @@ class BestPose : public cli::Tool {
 
   std::string robot_path_, index_, force_frame_, map_path_, evaluate_path_;
   SearchOptions where_;
+  PathOptions along_;
   SearchOptions::Vector force_;
   std::optional<int> alternatives_;
   std::vector<AssumedStiffness> assumed_;

@@ -56,6 +56,14 @@ document::PlaneDocument search_plane(const SearchOptions& options) {
   return document;
 }
 
+double limit_margin(const SearchOptions& options) {
+  return radians_from_degrees(options.limit_margin_deg.value_or(kDefaultLimitMarginDeg));
+}
+
+double singularity_margin(const SearchOptions& options) {
+  return options.singularity_margin.value_or(kDefaultSingularityMargin);
+}
+
 robot::PoseTask search_task(const SearchOptions& options, const robot::Plane& plane,
                             const robot::Robot& robot, const robot::Elasticity& elasticity,
                             const robot::StiffnessTask& stiffness) {
@@ -64,8 +72,8 @@ robot::PoseTask search_task(const SearchOptions& options, const robot::Plane& pl
   task.tool_axis = direction(options.tool_axis, task.tool_axis, "--tool-axis");
   task.stiffness = stiffness;
   task.elasticity = elasticity;
-  task.limit_margin_rad = radians_from_degrees(options.limit_margin_deg.value_or(kDefaultLimitMarginDeg));
-  task.singularity_margin = options.singularity_margin.value_or(kDefaultSingularityMargin);
+  task.limit_margin_rad = limit_margin(options);
+  task.singularity_margin = singularity_margin(options);
   const auto reach = robot::plane_reach(robot, task.plane, task.tool_axis);
   task.x = interval(options.x_mm, reach.x);
   task.y = interval(options.y_mm, reach.y);

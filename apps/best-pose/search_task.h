@@ -26,6 +26,10 @@ struct SearchOptions {
 /// The plane of --height, or of --plane-origin, --plane-x and --plane-y. Throws WrongUsage.
 document::PlaneDocument search_plane(const SearchOptions& options);
 
+/// What a pose has to keep: rad from every joint limit, and the least singularity margin.
+double limit_margin(const SearchOptions& options);
+double singularity_margin(const SearchOptions& options);
+
 /// The task of a search on that plane. Throws WrongUsage, and NoPose where the plane is out of reach.
 robot::PoseTask search_task(const SearchOptions& options, const robot::Plane& plane,
                             const robot::Robot& robot, const robot::Elasticity& elasticity,

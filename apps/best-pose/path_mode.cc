@@ -1,0 +1,142 @@
+#include "path_mode.h"
+
+#include <cmath>
+
+#include "base/parallel.h"
+#include "base/range.h"
+#include "base/units.h"
+#include "cli/exit_status.h"
+#include "cli/tool.h"
+#include "document/measured/tool_path_text.h"
+#include "path_words.h"
+#include "robot/keep_out.h"
+
+namespace stablecut {
+namespace {
+
+constexpr double kDefaultJointSpeedDeg = 60;  // deg/s, of a joint whose speed nobody says
+
+// --joint-speed: one number, or one for each joint; deg/s.
+robot::JointAngles joint_speeds(const std::string& text, const robot::Robot& robot) {
+  robot::JointAngles speeds;
+  for (int j = 0; j < robot::kJoints; ++j)
+    speeds[j] = robot.joints[j].max_speed.value_or(radians_from_degrees(kDefaultJointSpeedDeg));
+  if (text.empty()) return speeds;
+  const auto fields = split(text, ',');
+  const bool right = fields.size() == 1 || fields.size() == robot::kJoints;
+  for (int j = 0; j < robot::kJoints && right; ++j) {
+    const auto speed = parse_number(fields[fields.size() == 1 ? 0 : j]);
+    cli::refuse_if(!speed || !(*speed > 0), "--joint-speed: " + text + ": expected speeds above 0 deg/s");
+    speeds[j] = radians_from_degrees(*speed);
+  }
+  cli::refuse_if(!right, "--joint-speed: " + text + ": expected one number or six, separated by commas");
+  return speeds;
+}
+
+Eigen::Isometry3d frame_of(const robot::Plane& plane) {
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  frame.linear() << plane.x_axis, plane.y_axis, plane.x_axis.cross(plane.y_axis);
+  frame.translation() = plane.origin;
+  return frame;
+}
+
+}  // namespace
+
+std::string PathOptions::without_path() const {
+  if (!objective.empty()) return "--objective";
+  if (!axis.empty()) return "--path-axis";
+  if (!joint_speed.empty()) return "--joint-speed";
+  if (!joints_csv.empty()) return "--joints";
+  if (speed_mm_per_s) return "--path-speed";
+  if (redundancy_rate_deg_per_mm) return "--redundancy-rate";
+  return partial ? "--partial" : "";
+}
+
+void add_path_options(CLI::App& app, PathOptions& options) {
+  const auto positive = [](double value) { return value > 0; };
+  const auto not_negative = [](double value) { return value >= 0; };
+  cli::add_number_option(app, "--path-speed", options.speed_mm_per_s,
+                         "Speed along the path where it says none, mm/s", "a number above 0", positive);
+  cli::add_choice_option(
+      app, "--path-axis", options.axis, "to-holder|to-tip",
+      "Where I, J, K of a path's text point (default: to-holder, as post-processors write)");
+  cli::add_choice_option(app, "--objective", options.objective, "worst|mean",
+                         "Make the worst point of the path as stiff as can be, or the mean (default: worst)");
+  app.add_option(
+         "--joint-speed", options.joint_speed,
+         "Largest speed of the joints, deg/s: one number, or six separated by commas (default: the robot "
+         "document's, else 60)")
+      ->type_name("DEG/S");
+  cli::add_number_option(app, "--redundancy-rate", options.redundancy_rate_deg_per_mm,
+                         "Most turning of the tool about its axis, deg per mm of path",
+                         "a number not below 0", not_negative);
+  app.add_flag("--partial", options.partial,
+               "Write what can be driven of a path that cannot be driven as a whole");
+}
+
+robot::ToolPath read_path(const document::Input& input, const PathOptions& options,
+                          const SearchOptions& where) {
+  document::ToolPathDefaults defaults;
+  if (where.has_plane()) defaults.frame = frame_of(search_plane(where).plane);
+  if (options.speed_mm_per_s) defaults.speed = *options.speed_mm_per_s * 1e-3;
+  defaults.axis_to_tip = options.axis == "to-tip";
+  if (input.document.is_null()) return document::tool_path_from_text(input.source, defaults);
+  return document::tool_path_from_json(input.document, input.source, defaults);
+}
+
+robot::PathTask path_task(robot::ToolPath path, const PathOptions& options, const SearchOptions& where,
+                          const robot::Robot& robot, const robot::Elasticity& elasticity,
+                          const robot::StiffnessTask& stiffness, bool feed_frame) {
+  robot::PathTask task;
+  task.path = std::move(path);
+  task.stiffness = stiffness;
+  task.force_in_feed = feed_frame;
+  task.elasticity = elasticity;
+  task.mean_objective = options.objective == "mean";
+  task.limit_margin_rad = limit_margin(where);
+  task.singularity_margin = singularity_margin(where);
+  task.max_speed = joint_speeds(options.joint_speed, robot);
+  if (options.redundancy_rate_deg_per_mm)
+    task.most_turn_per_metre = radians_from_degrees(*options.redundancy_rate_deg_per_mm) * 1e3;
+  if (const auto& turn = where.redundancy_deg) {
+    cli::refuse_if(turn->to - turn->from > 360, "--redundancy: expected at most a full turn");
+    task.redundancy = Range{radians_from_degrees(turn->from), radians_from_degrees(turn->to), turn->count};
+  }
+  return task;
+}
+
+PathResult solve_path(const robot::Robot& robot, const robot::PathTask& task,
+                      const robot::ElasticityErrors& errors, int threads, const Progress& progress) {
+  const robot::PathModel model(robot, task);
+  const robot::PathSearch search = robot::search_path(model, threads, progress);
+  PathResult result;
+  result.undone = obstacles_text(search.obstacles, robot, task);
+  if (search.parts.empty()) return result;
+  document::PosePathDocument document{task, search, {}, {}, 0, {}};
+  std::vector<std::pair<std::size_t, const robot::PathPose*>> poses;
+  double worst = 0;
+  for (std::size_t p = 0; p < search.parts.size(); ++p) {
+    const robot::PathPart& part = search.parts[p];
+    for (std::size_t i = 0; i < part.poses.size(); ++i) {
+      poses.emplace_back(part.first + i, &part.poses[i]);
+      if (!(part.poses[i].cost > worst)) continue;
+      worst = part.poses[i].cost;
+      document.worst_part = p;
+    }
+  }
+  document.worst = robot::worst_point(model, search.parts[document.worst_part]);
+  document.reports.resize(poses.size());
+  if (robot.keep_out_radius_m > 0) document.keep_out_margin_m.resize(poses.size());
+  parallel_for(poses.size(), threads, [&](std::size_t i) {
+    const auto& [point, pose] = poses[i];
+    document.reports[i] = robot::report_pose(robot, pose->angles, point_task(task, model.frames(), point),
+                                             task.elasticity, errors);
+    if (!document.keep_out_margin_m.empty())
+      document.keep_out_margin_m[i] = robot::keep_out_margin_m(robot, robot_pose(robot, pose->angles));
+  });
+  result.document = document::pose_path_to_json(document, robot);
+  result.joints_csv = document::joint_angles_csv(search, robot);
+  return result;
+}
+
+}  // namespace stablecut

@@ -1,0 +1,71 @@
+#!/usr/bin/env bash
+# best-pose --path: paths in several forms, what they break, what is kept.
+. "$SOURCE/apps/testing.sh"
+robot=$data/kr360.json
+jq '{format: "stablecut/joint-stiffness/1", stiffness_n_m_per_rad: .k_theta_2d_n_m_per_rad}' "$data/yanshan-poses.json" >k2d.json
+jq '.tool.translation_mm[0] = 150' "$robot" >offset.json
+run() { best-pose --robot offset.json --quiet "$@"; }
+
+# A line of 1 m, as a document, as words and as columns.
+jq -n '{format: "stablecut/tool-path/1", speed_mm_per_s: 50, frame: {translation_mm: [1800, -500, 1000], rotation: [[0, -1, 0], [1, 0, 0], [0, 0, 1]]},
+  points: [range(51) | {position_mm: [. * 20, 0, 0], axis: [0, 0, -1]}]}' >line.json
+{ echo "%"; for i in $(seq 0 50); do echo "N$i G1 X$((i * 20)) Y0 Z0 I0 J0 K1 F3000"; done; } >line.nc
+for i in $(seq 0 50); do echo "$((i * 20)) 0 0 0 0 1"; done >line.txt
+check "a path" run --path line.json --force 0,400,0 k2d.json -o line-poses.json --joints line.csv
+check_jq "a pose for each point" line-poses.json '(.points | length) == 51 and .index.name == "deflection" and .objective == "worst" and (.obstacles | length) == 0
+  and (.parts | map([.first, .last])) == [[0, 50]] and .points[50].time_s > 19.999 and .points[50].time_s < 20.001'
+check_jq "the tool is where the path says" line-poses.json 'all(.points[]; (.tcp_mm[0] - 1800 | fabs) < 1e-6 and (.tcp_mm[1] - (-500 + .point * 20) | fabs) < 1e-6)'
+check_jq "the worst point" line-poses.json '([.points[].score] | max) as $m | .worst.score / $m - 1 | fabs < 1e-9'
+check_jq "speeds are kept" line-poses.json 'all(.points[].joint_speed_deg_per_s[]; fabs <= 60) and .points[0].joint_speed_deg_per_s == [0, 0, 0, 0, 0, 0]'
+check_jq "and are the steps over the time" line-poses.json '[.points[7].joints_deg, .points[8].joints_deg, .points[8].joint_speed_deg_per_s] | transpose | all(((.[1] - .[0]) / 0.4 - .[2] | fabs) < 1e-6)'
+check "a line of CSV for each pose and a header" test "$(wc -l <line.csv)" -eq 52
+check "the joints by name" grep -q '^point,time_s,A1_deg,A2_deg' line.csv
+frame=(--plane-origin "1800,-500,1000" --plane-x "0,1,0" "--plane-y=-1,0,0")
+run --path line.nc "${frame[@]}" --force 0,400,0 --no-provenance k2d.json -o words.json
+run --path line.txt "${frame[@]}" --path-speed 50 --force 0,400,0 --no-provenance k2d.json -o columns.json
+check "words and columns are the same path" cmp -s words.json columns.json
+check_jq "and that of the document" words.json '.worst.score / $l[0].worst.score - 1 | fabs < 1e-6' --slurpfile l line-poses.json
+run --path line.json --force 0,400,0 --threads 1 k2d.json -o one.json
+check "same bytes on one thread" cmp -s line-poses.json one.json
+sed 's/K1/K-1/' line.nc >down.nc
+run --path down.nc "${frame[@]}" --path-axis to-tip --force 0,400,0 --no-provenance k2d.json -o tip.json
+check "the axis the other way round" cmp -s words.json tip.json
+run --path line.json --force 400,0,0 --force-frame feed --no-provenance k2d.json -o feed.json
+check_jq "a force along the feed" feed.json '.worst.score / $l[0].worst.score - 1 | fabs < 1e-6' --slurpfile l line-poses.json
+run --path line.json --force 0,400,0 --objective mean k2d.json -o mean.json
+check_jq "the mean is not worse than that of the worst's path" mean.json '([.points[].score] | add) <= ([$l[0].points[].score] | add) * (1 + 1e-6) and .objective == "mean"' --slurpfile l line-poses.json
+check_jq "and its worst point not better" mean.json '.worst.score >= $l[0].worst.score * (1 - 1e-6)' --slurpfile l line-poses.json
+run --path line.json --redundancy-rate 0 --force 0,400,0 k2d.json -o still.json
+check_jq "a tool that does not turn" still.json '[.points[].turn_deg] | max - min < 1e-6'
+run --path line.json --redundancy 30:40:3 k2d.json -o narrow.json
+check_jq "an interval of the redundancy, and the weakest direction without a force" narrow.json '.index.name == "weakest" and all(.points[]; .redundancy_deg > 29.999999 and .redundancy_deg < 40.000001)'
+jq '.joints[].max_speed_deg_per_s = 7' offset.json >slow.json
+best-pose --robot slow.json --quiet --path line.json --force 0,400,0 k2d.json -o slow-poses.json
+check_jq "speeds of the robot's document" slow-poses.json '.joint_speed_limit_deg_per_s == [7, 7, 7, 7, 7, 7] and all(.points[].joint_speed_deg_per_s[]; fabs <= 7)'
+jq '.std_n_m_per_rad = [0, 4.53e5, 0, 0, 0, 0]' k2d.json >uncertain.json
+run --path line.json --force 0,0,-400 uncertain.json -o spread.json
+check_jq "deviations of the deflections" spread.json 'all(.points[]; .deflection_std_um > 0)'
+
+# What cannot be driven.
+jq '.points = [range(41) | {position_mm: [. * 100, 0, 0], axis: [0, 0, -1]}]' line.json >long.json
+refused 1 '^best-pose: long.json: points [0-9]* to 40: out of reach' run --path long.json k2d.json
+refused 1 'points [0-9]* to [0-9]*: joint speed between points: A[1-6] would need .* of 1 deg/s' run --path line.json --joint-speed 1 k2d.json
+# The straight tool stands on the line x = 1800: within 1830 of axis 1 where |y| is below 330.
+jq '.keep_out_radius_mm = 1830' "$robot" >guarded.json
+refused 1 'points 9 to 41: tool in the keep-out cylinder by' best-pose --robot guarded.json --path line.json --quiet k2d.json
+check "the rest of a path" run --path long.json --partial k2d.json -o rest.json
+check_jq "with what is left out" rest.json '(.points | length) == .obstacles[0].first and .obstacles[-1].last == 40 and .obstacles[-1].constraint == "reach"'
+best-pose --robot offset.json --path long.json --partial k2d.json -o rest.json 2>.err
+check "is warned about" grep -q '^best-pose: warning: long.json: points .* out of reach' .err
+
+# Wrong use and wrong data.
+refused 64 '^best-pose: --objective: expected with --path only' run --height 1600 --objective mean k2d.json
+refused 64 '^best-pose: --force-frame: feed: expected with --path only' run --height 1600 --force 1,0,0 --force-frame feed k2d.json
+refused 64 '^best-pose: --path: expected without --height' run --path line.json --height 1600 k2d.json
+refused 64 '^best-pose: --joint-speed: 1,2: expected one number or six' run --path line.json --joint-speed 1,2 k2d.json
+refused 64 '^best-pose: --joint-speed: 0: expected speeds above 0' run --path line.json --joint-speed 0 k2d.json
+refused 65 '^best-pose: line.txt: line 1: expected a speed' run --path line.txt k2d.json
+refused 65 '^best-pose: line.json: /frame: .*from one place only' run --path line.json "${frame[@]}" k2d.json
+refused 66 '^best-pose: none.json: cannot be read' run --path none.json k2d.json
+jq 'del(.points[3].axis)' line.json >bad.json
+refused 65 '^best-pose: bad.json: /points/3/axis: missing' run --path bad.json k2d.json

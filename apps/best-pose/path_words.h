@@ -1,0 +1,15 @@
+// What best-pose says about paths.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "robot/path_search.h"
+
+namespace stablecut {
+
+/// Which points of a path cannot be driven, and why; empty where there are none.
+std::string obstacles_text(const std::vector<robot::PathObstacle>& obstacles, const robot::Robot& robot,
+                           const robot::PathTask& task);
+
+}  // namespace stablecut
