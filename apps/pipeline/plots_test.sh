@@ -9,14 +9,17 @@ fit-modes --quiet --synthesize 2:1000:1000 "$data/thesis-table-6-2.json" | fit-m
 robot=$data/kr360.json
 jq '{format: "stablecut/joint-stiffness/1", stiffness_n_m_per_rad: .k_theta_2d_n_m_per_rad}' "$data/yanshan-poses.json" >k2d.json
 best-pose --robot "$robot" --height 1600 --x=-2600:2600:14 --y=-2600:2600:14 --map pose-map.json k2d.json -o pose.json
-for plot in lobes frf pose-map stabilization; do
+jq -n '{format: "stablecut/tool-path/1", speed_mm_per_s: 100, frame: {translation_mm: [1800, 0, 1600], rotation: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]},
+  points: [range(21) | {position_mm: [0, . * 40 - 400, 0], axis: [0, 0, -1]}]}' >tool-path.json
+best-pose --robot "$robot" --path tool-path.json --quiet k2d.json -o path.json
+for plot in lobes frf pose-map stabilization path; do
   for form in svg png; do
     "$scripts/plot-$plot" $plot.json -o $plot.$form 2>.err
     check "plot-$plot to $form" test $? -eq 0 -a -s $plot.$form -a ! -s .err
   done
   check "plot-$plot: SVG" grep -q '</svg>' $plot.svg
   check "plot-$plot: PNG" test "$(head -c 4 $plot.png | tail -c 3)" = PNG
-  if [ $plot != pose-map ]; then
+  if [ $plot != pose-map ] && [ $plot != path ]; then
     "$scripts/plot-$plot" --terminal <$plot.json >text
     check "plot-$plot in a terminal" grep -q 'o\|\.' text
   fi
@@ -77,3 +80,17 @@ refused 65 '^plot-pose-map: wall-pose.json: /height_mm: expected a search in the
 refused 65 '^plot-pose-map: pose.json: /format: stablecut/pose/1: expected stablecut/pose-map/1' "$scripts/plot-pose-map" pose.json -o x.svg
 best-pose --robot "$robot" --height 1600 --x 0:100:2 --y 1500:1500:1 --index deflection --force 0,0,-9 --quiet --map line.json k2d.json -o pose.json
 check "a map of a line" "$scripts/plot-pose-map" line.json -o line.svg
+
+# Paths.
+check "the worst point's reason" grep -q 'worst point [0-9]*: ' path.svg
+"$scripts/plot-path" path.json --map pose-map.json -o over.svg
+check "a path over its map" grep -q 'over the best poses at z = 1600 mm' over.svg
+jq '.std_n_m_per_rad = [1e6, 1e6, 1e6, 1e5, 1e5, 1e5]' k2d.json >uncertain.json
+jq '.points[12].position_mm[0] = 3000' tool-path.json >broken.json
+best-pose --robot "$robot" --path broken.json --partial --force 0,0,-100 --quiet uncertain.json -o partial.json
+check_jq "a path in parts" partial.json '(.parts | length) > 1'
+"$scripts/plot-path" partial.json -o partial.svg 2>.err
+check "is drawn, with its deviations" test -s partial.svg -a ! -s .err
+jq '.points[3] |= del(.tcp_mm)' path.json >short.json
+refused 65 '^plot-path: short.json: /points: expected poses' "$scripts/plot-path" short.json -o x.svg
+refused 65 '^plot-path: wall.json: /height_mm: expected a horizontal plane' "$scripts/plot-path" path.json --map wall.json -o x.svg

@@ -83,6 +83,8 @@ with tempfile.TemporaryDirectory() as folder:
 with tempfile.TemporaryDirectory() as folder:
     list_path, map_path = pathlib.Path(folder) / "poses.json", pathlib.Path(folder) / "map.json"
     list_path.write_text(json.dumps(poses))
+    stiffness_path = pathlib.Path(folder) / "stiffness.json"
+    stiffness_path.write_text(json.dumps(stiffness))
     search = ["best-pose", *robot, "--height", "1600", "--x", "0:2500:6", "--y", "0:2500:6", "--force", "0,0,-600"]
     scored = run("best-pose", *robot, "--evaluate", str(list_path), stdin=json.dumps(stiffness))
     documents |= {
@@ -99,6 +101,11 @@ with tempfile.TemporaryDirectory() as folder:
                                  "0,0,1", "--tool-axis", "1,0,0", stdin=json.dumps(stiffness)),
         "evaluation": scored,
         "pose map": json.loads(map_path.read_text()),
+        "path": run("best-pose", *robot, "--path", str(source / "testdata/zigzag-path.json"), "--force", "200,400,-150",
+                    "--force-frame", "feed", stdin=json.dumps(stiffness)),
+        "path in parts": run("best-pose", *robot, "--path", "-", "--plane-origin", "2300,0,1600", "--path-speed", "50",
+                             "--partial", str(stiffness_path), stdin="".join(f"{20 * i} 0 0\n" for i in range(31))),
+        "tool path": json.loads((source / "testdata/zigzag-path.json").read_text()),
     }
 spindle = json.loads((source / "testdata/carbide-in-collet.json").read_text())
 taps = json.loads((source / "testdata/spindle-taps.json").read_text())
@@ -121,7 +128,7 @@ documents["stiffness where one load leaves joints unseen"] = run(
     "joint-stiffness", *robot, stdin=json.dumps(documents["load samples"]))
 required = {"frf": "h", "modal-table": "modes", "lobes": "limit", "robot": "tool", "load-samples": "samples",
             "joint-stiffness": "stiffness_n_m_per_rad", "pose-list": "poses", "measurement-plan": "samples", "pose": "index",
-            "pose-map": "score", "assembly": "tool", "tool-joint": "x", "stabilization": "orders"}
+            "pose-map": "score", "pose-path": "points", "tool-path": "points", "assembly": "tool", "tool-joint": "x", "stabilization": "orders"}
 # A joint in one direction has its values at the root.
 assert set(required) | {"cut"} == set(schemas), "a kind without an example"
 for name, document in documents.items():
