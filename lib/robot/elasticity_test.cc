@@ -12,19 +12,6 @@ using namespace stablecut::robot::fixtures;
 
 namespace {
 
-// About as much as the joints of the KR360 yield, each spring another value.
-double random_compliance(const Spring& spring, std::mt19937_64& generator) {
-  return spring.kind == Spring::Kind::kBase ? uniform(generator, 1e-8, 1e-7) : uniform(generator, 5e-8, 1e-6);
-}
-
-Elasticity random_elasticity(const Robot& robot, ElasticModel model, std::mt19937_64& generator) {
-  Elasticity elasticity{springs_of(robot, model), {}};
-  elasticity.compliance.resize(static_cast<Eigen::Index>(elasticity.springs.size()));
-  for (std::size_t k = 0; k < elasticity.springs.size(); ++k)
-    elasticity.compliance[k] = random_compliance(elasticity.springs[k], generator);
-  return elasticity;
-}
-
 // The joints of the KR360 and these springs.
 Elasticity with_springs(const std::vector<std::pair<Spring, double>>& others) {
   Elasticity elasticity = joints_only(k_theta_2d().cwiseInverse());

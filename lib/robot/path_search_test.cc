@@ -4,6 +4,7 @@
 #include "robot/path_brute_force_test.h"
 #include "robot/path_fixtures_test.h"
 #include "robot/pose_report.h"
+#include "robot/pose_search.h"
 #include "robot/singularity_lanes.h"
 
 namespace stablecut::robot {
@@ -69,6 +70,55 @@ TEST_CASE("paths are not worse than brute force in steps of a degree") {
   const double brute = brute_force_objective(cell.robot, task, 60);
   REQUIRE(std::isfinite(brute));
   CHECK(search.parts[0].objective <= brute * (1 + 1e-3));
+}
+
+TEST_CASE("a point of a path costs what the report of its pose says, whatever yields") {
+  const Robot robot = with_tool_offset(kr360(), 0.1);
+  const PathCell cell{"", robot, {1.7, 0.2, 1.1}, k_theta_2d(), path_cells()[0].max_speed_deg};
+  const std::string_view index = GENERATE("deflection", "weakest", "combined", "axial");
+  const ElasticModel yields =
+      GENERATE(ElasticModel::kJointsOnly, ElasticModel::kBase, ElasticModel::kThreeAxis);
+  CAPTURE(index, yields);
+  std::mt19937_64 generator(45);
+  PathTask task = path_task(cell, spiral_path(cell, 6, 0.1), index);
+  task.elasticity = random_elasticity(robot, yields, generator);
+  if (index == "deflection" && yields == ElasticModel::kBase) {
+    // In the tool's frame instead of the feed's.
+    task.force_in_feed = false;
+    task.stiffness.force_in_tool = true;
+  }
+  const PathModel model(robot, task);
+  int compared = 0;
+  for (std::size_t i = 0; i < task.path.size(); ++i) {
+    for (int b = 0; b < kBranches; ++b) {
+      const auto pose = model.pose(i, 0.3 * static_cast<double>(i), b);
+      if (!pose) continue;
+      const PoseReport report =
+          report_pose(robot, pose->angles, point_task(task, model.frames(), i), task.elasticity, {});
+      // The kernel's largest eigenvalue is promised to 1e-8 of the spread.
+      CHECK(std::abs(path_cost(*task.stiffness.index, report.score) / pose->cost - 1) < 1e-8);
+      ++compared;
+    }
+  }
+  CHECK(compared > 20);
+}
+
+TEST_CASE("a path of one point costs what the search of poses finds there") {
+  const Robot robot = with_tool_offset(kr360(), 0.1);
+  const PathCell cell{"", robot, {1.7, 0.2, 1.1}, k_theta_2d(), path_cells()[0].max_speed_deg};
+  std::mt19937_64 generator(46);
+  PathTask task = path_task(cell, {path_point(cell, 0, 0, 0, 0, 0, 0.1)}, "deflection");
+  task.force_in_feed = false;
+  task.elasticity = random_elasticity(robot, ElasticModel::kThreeAxis, generator);
+  const PathModel model(robot, task);
+  const PathSearch path = search_path(model, 1);
+  PoseTask pose = tool_down(robot, cell.workpiece.z(), "deflection", 2);
+  pose.x = {cell.workpiece.x(), cell.workpiece.x(), 1};
+  pose.y = {cell.workpiece.y(), cell.workpiece.y(), 1};
+  pose.stiffness = task.stiffness;
+  pose.elasticity = task.elasticity;
+  // Neither search stops nearer than 1e-6 of the score.
+  CHECK(std::abs(path.parts.at(0).objective / search_poses(robot, pose, 0, 1).best.score - 1) < 1e-6);
 }
 
 TEST_CASE("a path in one motion is the same on any number of threads") {
