@@ -16,7 +16,7 @@ constexpr double kTurnUnit = kPi / 2;         // rad
 
 // The largest cost so far.
 struct WorstRule {
-  static constexpr double most_cost = kUnreached;
+  double most_cost;
   double start(double cost) const { return cost; }
   double with(double before, double cost) const { return std::max(before, cost); }
   double penalty(double) const { return 0; }
@@ -24,10 +24,10 @@ struct WorstRule {
 };
 
 struct SumRule {
-  double per_reference, smoothness, most_cost;
+  double per_reference, per_turn2, most_cost;  // -, 1/rad^2, -
   double start(double cost) const { return cost * per_reference; }
   double with(double before, double cost) const { return before + cost * per_reference; }
-  double penalty(double turn) const { return smoothness * (turn / kTurnUnit) * (turn / kTurnUnit); }
+  double penalty(double turn) const { return per_turn2 * turn * turn; }
   double enough(double) const { return -kUnreached; }
 };
 
@@ -68,8 +68,9 @@ class BranchPass {
 // Blocks of points whose rungs are in memory, with the point before.
 class Blocks {
  public:
-  Blocks(const ChainTask& task, std::size_t first, std::size_t last)
+  Blocks(const ChainTask& task, std::size_t first, std::size_t last, double most_cost)
       : task_(task),
+        most_cost_(most_cost),
         first_(first),
         last_(last),
         size_(std::max<std::size_t>(1, kRungsAtOnce / static_cast<std::size_t>(task.ladder.rungs))),
@@ -111,9 +112,12 @@ class Blocks {
 
  private:
   std::size_t next_end() const { return std::min(end_ + size_, last_ + 1); }
-  void fill_ahead(std::size_t i) { task_.model.fill(task_.ladder, end_ + i, task_.branches, ahead_[i]); }
+  void fill_ahead(std::size_t i) {
+    task_.model.fill(task_.ladder, end_ + i, task_.branches, ahead_[i], task_.known, most_cost_);
+  }
 
   const ChainTask& task_;
+  double most_cost_;
   std::size_t first_, last_, size_;
   std::vector<PointRungs> rungs_, ahead_;  // of the block behind the point before it, and of the next block
   bool ahead_is_filled_ = false;
@@ -128,16 +132,16 @@ std::vector<int> branch_list(unsigned branches) {
   return list;
 }
 
-// The stretches by one rule.
-template <typename Rule>
-std::vector<PathStretch> stretches(const ChainTask& task, const Rule& rule, std::size_t first,
-                                   std::size_t last) {
+// The stretches over rungs that cost no more than `most_cost`; `one`: the first alone.
+std::vector<PathStretch> stretches(const ChainTask& task, std::size_t first, std::size_t last,
+                                   double most_cost, bool one) {
+  const WorstRule rule{most_cost};
   const std::vector<int> branches = branch_list(task.branches);
-  std::vector<BranchPass<Rule>> passes(branches.size(), BranchPass<Rule>(task, rule));
+  std::vector<BranchPass<WorstRule>> passes(branches.size(), BranchPass<WorstRule>(task, rule));
   std::vector<std::vector<double>> best(branches.size());  // at the points of a block, from `from` on
   std::vector<PathStretch> found;
   bool open = false;
-  Blocks blocks(task, first, last);
+  Blocks blocks(task, first, last, most_cost);
   while (blocks.next()) {
     for (std::size_t from = blocks.begin(); from < blocks.end();) {
       blocks.run(branches.size(), [&](std::size_t b) {
@@ -157,13 +161,14 @@ std::vector<PathStretch> stretches(const ChainTask& task, const Rule& rule, std:
       if (reached > 0) {
         if (!open) found.push_back({from, from, {}});
         found.back().last = from + reached - 1;
-        found.back().objective.fill(kUnreached);
+        found.back().largest.fill(kUnreached);
         for (std::size_t b = 0; b < branches.size(); ++b) {
-          if (best[b].size() == reached) found.back().objective[branches[b]] = best[b].back();
+          if (best[b].size() == reached) found.back().largest[branches[b]] = best[b].back();
         }
       }
       // A point where a stretch ends begins the next; one where nothing is allowed is left behind.
       const bool ended = from + reached < blocks.end();
+      if (one && ended) return found;
       from += reached + (ended && !open && reached == 0 ? 1 : 0);
       open = !ended;
     }
@@ -173,33 +178,43 @@ std::vector<PathStretch> stretches(const ChainTask& task, const Rule& rule, std:
 
 }  // namespace
 
-double PathStretch::best() const { return *std::min_element(objective.begin(), objective.end()); }
+double PathStretch::best() const { return *std::min_element(largest.begin(), largest.end()); }
 
-std::vector<PathStretch> path_stretches(const ChainTask& task, std::size_t first, std::size_t last,
-                                        bool mean) {
-  if (mean) return stretches(task, SumRule{1, 0, kUnreached}, first, last);
-  return stretches(task, WorstRule{}, first, last);
+std::vector<PathStretch> path_stretches(const ChainTask& task, std::size_t first, std::size_t last) {
+  return stretches(task, first, last, kUnreached, false);
+}
+
+std::optional<PathStretch> path_through(const ChainTask& task, std::size_t first, std::size_t last,
+                                        double most_cost) {
+  const auto found = stretches(task, first, last, most_cost, true);
+  if (found.empty() || found[0].first != first || found[0].last != last) return std::nullopt;
+  return found[0];
 }
 
 std::optional<PathChain> best_chain(const ChainTask& task, std::size_t first, std::size_t last,
                                     const ChainWeights& weights) {
   const std::vector<int> branches = branch_list(task.branches);
-  const SumRule rule{1 / weights.reference, weights.smoothness, weights.most_cost};
+  const SumRule rule{1 / weights.reference, weights.smoothness / (kTurnUnit * kTurnUnit), weights.most_cost};
   const std::size_t count = last - first + 1;
   const int combinations = task.model.copies().combinations;
   const std::size_t states = static_cast<std::size_t>(task.ladder.rungs) * combinations;
   std::vector<BranchPass<SumRule>> passes(branches.size(), BranchPass<SumRule>(task, rule));
-  std::vector<std::vector<std::uint16_t>> back(branches.size(), std::vector<std::uint16_t>(count * states));
-  Blocks blocks(task, first, last);
+  // [branch][point][rung and copy] where it comes from; of the branches that lead on.
+  std::vector<std::vector<std::vector<std::uint16_t>>> back(branches.size());
+  Blocks blocks(task, first, last, weights.most_cost);
   while (blocks.next()) {
     blocks.run(branches.size(), [&](std::size_t b) {
       for (std::size_t i = blocks.begin(); i < blocks.end(); ++i) {
         const BranchRungs& now = blocks.at(i)[branches[b]];
-        if (i == first)
+        if (i == first) {
           passes[b].start(now);
-        else
-          passes[b].move(i, blocks.at(i - 1)[branches[b]], now, &back[b][(i - first) * states]);
+          back[b].emplace_back();
+        } else if (passes[b].front().alive) {
+          back[b].emplace_back(states);
+          passes[b].move(i, blocks.at(i - 1)[branches[b]], now, back[b].back().data());
+        }
       }
+      if (!passes[b].front().alive) back[b] = {};
     });
   }
   std::optional<std::size_t> winner;
@@ -215,7 +230,7 @@ std::optional<PathChain> best_chain(const ChainTask& task, std::size_t first, st
     const int rung = static_cast<int>(state) / combinations;
     chain.turn[i] = task.ladder.turn(first + i, rung);
     chain.copy[i] = static_cast<int>(state) % combinations;
-    if (i > 0) state = back[*winner][i * states + state];
+    if (i > 0) state = back[*winner][i][state];
   }
   // A closed ladder's turns may run on.
   for (std::size_t i = 1; i < count; ++i)

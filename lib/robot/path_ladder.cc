@@ -41,6 +41,15 @@ AngleCopies copies_of(const Robot& robot, double margin) {
   return copies;
 }
 
+// Whether another copy of a joint's angle moves what a coupled range asks for.
+bool any_coupled_copies(const Robot& robot, const AngleCopies& copies) {
+  for (int j = 0; j < kJoints; ++j) {
+    const auto& coupling = robot.joints[j].coupling;
+    if (coupling && (copies.count[j] > 1 || copies.count[coupling->follows] > 1)) return true;
+  }
+  return false;
+}
+
 bool full_turn(const std::optional<Range>& interval) {
   return !interval ||
          interval->to - interval->from >= kTwoPi - std::max(kClosedGap, interval->step()) - kIntervalRounding;
@@ -64,7 +73,7 @@ PathModel::PathModel(const Robot& robot, const PathTask& task)
       springs_(arm_springs(robot, task.elasticity, inverse_)),
       frames_(path_frames(task.path)),
       copies_(copies_of(robot, task.limit_margin_rad)),
-      coupled_(inverse_.constants().coupled) {
+      coupled_copies_(any_coupled_copies(robot, copies_)) {
   if (task.path.empty()) throw InvalidArgument("path: empty: expected points");
   if (task.stiffness.index->needs_force && !task.stiffness.force_n) {
     throw InvalidArgument(std::string("force: missing: expected a force for the index ") +
@@ -154,7 +163,7 @@ std::uint32_t PathModel::allowed_copies(const double angles[kJoints]) const {
     const double held = std::clamp(1 + std::floor(room / kTwoPi), 0.0, double{AngleCopies::kMostEach});
     allowed &= copies_.within[j][static_cast<int>(held)];
   }
-  if (!coupled_) return allowed;
+  if (!coupled_copies_) return allowed;  // the coupled range is that of the most central copy, which is kept
   for (int c = 0; c < copies_.combinations; ++c) {
     if (limit_margin_rad(robot_, copy_of(angles, c)) < task_.limit_margin_rad)
       allowed &= ~(std::uint32_t{1} << c);
@@ -178,7 +187,8 @@ void PathModel::take_branch(const ArmLanes& lanes, int branch, int rung, double 
   rungs.any = true;
 }
 
-void PathModel::fill(const Ladder& ladder, std::size_t point, unsigned branches, PointRungs& rungs) const {
+void PathModel::fill(const Ladder& ladder, std::size_t point, unsigned branches, PointRungs& rungs,
+                     RungCosts* known, double most_cost) const {
   const auto n = static_cast<std::size_t>(ladder.rungs);
   for (int b = 0; b < kBranches; ++b) {
     if (!(branches >> b & 1)) continue;
@@ -191,8 +201,11 @@ void PathModel::fill(const Ladder& ladder, std::size_t point, unsigned branches,
   double cost[kArms];
   bool away[kArms] = {true, true, true, true};
   Eigen::Matrix3d axes;
+  const bool store = known && branches == kAllBranches;
   for (int k = 0; k < ladder.rungs; ++k) {
     const double turn = ladder.turn(point, k);
+    if (known && known->costs_more(point, k, most_cost)) continue;
+    if (store) known->store(point, k, kInfinity);
     if (!in_interval(point, turn)) continue;
     solve_arms(inverse_.constants(), target(point, turn, axes), lanes);
     unsigned inside = 0;
@@ -205,9 +218,13 @@ void PathModel::fill(const Ladder& ladder, std::size_t point, unsigned branches,
     if (task_.singularity_margin > 0) {
       arms_away_from_singularities(lanes, home_point_[point].data(), task_.singularity_margin, away);
     }
+    double least = kInfinity;
     for (int b = 0; b < kBranches; ++b) {
-      if ((inside >> b & 1) && away[b % kArms]) take_branch(lanes, b, k, cost[b % kArms], rungs[b]);
+      if (!(inside >> b & 1) || !away[b % kArms]) continue;
+      take_branch(lanes, b, k, cost[b % kArms], rungs[b]);
+      least = std::min(least, rungs[b].cost[k]);
     }
+    if (store) known->store(point, k, least);
   }
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -41,8 +42,40 @@ struct BranchRungs {
   std::vector<double> cost;                        ///< [rung] path_cost(); infinite where nothing is allowed
   std::vector<std::uint32_t> copies;               ///< [rung] a bit for each copy that is allowed
   bool any = false;                                ///< of the rungs is allowed
+
+  JointAngles at(int rung) const {
+    return (JointAngles() << angle[0][rung], angle[1][rung], angle[2][rung], angle[3][rung], angle[4][rung],
+            angle[5][rung])
+        .finished();
+  }
 };
+inline constexpr unsigned kAllBranches = 0xFF;
 using PointRungs = std::array<BranchRungs, kBranches>;
+
+/// The least cost of each rung of a ladder over all branches, as far as it is known: what a later pass over
+/// the same ladder need not solve again.
+class RungCosts {
+ public:
+  explicit RungCosts(std::size_t points, int rungs)
+      : rungs_(static_cast<std::size_t>(rungs)), least_(points * rungs_, -1.0F) {}
+
+  void store(std::size_t point, int rung, double cost) { least_[at(point, rung)] = static_cast<float>(cost); }
+  /// Known to cost more than that, or not to be allowed where that is infinite.
+  bool costs_more(std::size_t point, int rung, double most_cost) const {
+    const float least = least_[at(point, rung)];
+    return std::isinf(least) || least > most_cost * (1 + kFloatRounding);
+  }
+
+ private:
+  static constexpr double kFloatRounding = 1e-6;
+
+  std::size_t at(std::size_t point, int rung) const {
+    return point * rungs_ + static_cast<std::size_t>(rung);
+  }
+
+  std::size_t rungs_;
+  std::vector<float> least_;
+};
 
 /// What the joints and the tool may turn in the move that leads to a point, rad.
 struct StepLimit {
@@ -65,8 +98,10 @@ class PathModel {
   /// force.
   PathModel(const Robot& robot, const PathTask& task);
 
-  /// All rungs of the branches (bits) at a point.
-  void fill(const Ladder& ladder, std::size_t point, unsigned branches, PointRungs& rungs) const;
+  /// All rungs of the branches (bits) at a point. `known`, of the same ladder: rungs that are known to cost
+  /// more than `most_cost` may be left out, and what all branches cost is stored.
+  void fill(const Ladder& ladder, std::size_t point, unsigned branches, PointRungs& rungs,
+            RungCosts* known = nullptr, double most_cost = std::numeric_limits<double>::infinity()) const;
 
   /// The angles of a branch at a turn, in that copy. The turn must be within reach.
   JointAngles angles(std::size_t point, double turn, int branch, int copy) const;
@@ -107,7 +142,7 @@ class PathModel {
   ArmSprings springs_;
   PathFrames frames_;
   AngleCopies copies_;
-  bool coupled_;
+  bool coupled_copies_;                 // any joint that has copies follows another or is followed
   std::vector<Eigen::Vector3d> force_;  // home frame, of each point; in the tool's frame where it is that
   std::vector<Eigen::Vector3d> home_point_;  // the tool point, home frame
 };

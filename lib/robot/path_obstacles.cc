@@ -13,6 +13,7 @@ constexpr double kLookStep = 5 * kPi / 180;  // of the redundancy, to find out w
 constexpr double kWorstStep = kPi / 180;     // the same at the worst point
 constexpr int kLookAround = 15;              // degrees of redundancy that a next pose may be off
 constexpr double kWorthAWord = 1e-3;         // relative: a pose that much better is worth a word
+constexpr double kTurnRounding = 1e-9;       // rad: rounding of the rungs
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // The rule that stands last in the way is the nearest to being kept.
@@ -48,19 +49,22 @@ Overspeed overspeed(const StepLimit& limit, const JointAngles& from, const Joint
 }
 
 // The slowest step from any pose that is allowed before a point to one that is allowed there.
-Overspeed slowest_step(const PathModel& model, const Ladder& ladder, const StepLimit& limit,
-                       std::size_t point) {
+Overspeed slowest_step(const PathModel& model, const StepLimit& limit, std::size_t point) {
+  const Ladder before = model.whole_ladder(kLookStep), here = model.whole_ladder(kWorstStep);
+  PointRungs from, to;
+  model.fill(before, point - 1, kAllBranches, from);
+  model.fill(here, point, kAllBranches, to);
+  const double most_turn = std::min(limit.turn, radians_from_degrees(kLookAround));
   Overspeed slowest;
-  for (int k = 0; k < ladder.rungs; ++k) {
-    for (int b = 0; b < kBranches; ++b) {
-      const double turn = ladder.turn(point - 1, k);
-      if (model.fault(point - 1, turn, b).kind != PoseFault::Kind::kNone) continue;
-      const JointAngles from = model.pose(point - 1, turn, b)->angles;
-      for (int d = -kLookAround; d <= kLookAround; ++d) {
-        const double next = turn + radians_from_degrees(d);
-        if (std::abs(next - turn) > limit.turn || model.fault(point, next, b).kind != PoseFault::Kind::kNone)
+  for (int b = 0; b < kBranches; ++b) {
+    for (int k = 0; k < before.rungs && from[b].any; ++k) {
+      if (from[b].copies[k] == 0) continue;
+      for (int n = 0; n < here.rungs; ++n) {
+        const double turn = here.turn(point, n) - before.turn(point - 1, k);
+        if (to[b].copies[n] == 0 ||
+            std::abs(before.closed ? std::remainder(turn, kTwoPi) : turn) > most_turn + kTurnRounding)
           continue;
-        const Overspeed step = overspeed(limit, from, model.pose(point, next, b)->angles);
+        const Overspeed step = overspeed(limit, from[b].at(k), to[b].at(n));
         if (step.factor < slowest.factor) slowest = step;
       }
     }
@@ -72,8 +76,7 @@ Overspeed slowest_step(const PathModel& model, const Ladder& ladder, const StepL
 PathObstacle obstacle_between(const PathModel& model, const StepLimit& limit, const PathPart& part,
                               std::size_t next) {
   PathObstacle obstacle{part.last(), next, true, false, {}};
-  const Ladder ladder = model.whole_ladder(kLookStep);
-  Overspeed slowest = slowest_step(model, ladder, limit, next);
+  Overspeed slowest = slowest_step(model, limit, next);
   if (!(slowest.factor > 1)) {
     // Single poses would lead on: it is the motion up to here that does not.
     slowest = {};

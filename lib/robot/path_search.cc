@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/parallel.h"
 #include "base/units.h"
 #include "robot/path_obstacles.h"
 
@@ -21,14 +22,15 @@ constexpr int kMostRounds = 8;    // with one step
 constexpr double kNoGain = 1e-6;  // relative
 constexpr double kStairStep =
     3 * kPi / 180;  // rad that every joint has to be able to turn from stair to stair
-constexpr std::size_t kManyPoints = 2000;
+constexpr std::size_t kSomePoints = 50;
+constexpr double kCoarseStep = 5 * kPi / 180;
 constexpr double kRampStep = kPi / 360;
 constexpr int kRampRungs = 8;
 
 // A motion through a stretch and what it is worth.
 struct Found {
   PathChain chain;
-  double objective = 0;  // the largest cost, or the sum
+  double objective = 0;  // the largest cost, or what the chain makes least
 };
 
 class Search {
@@ -39,21 +41,28 @@ class Search {
         threads_(threads),
         progress_(progress),
         limits_(model.step_limits()),
-        whole_(model.whole_ladder(kLadderStep)) {}
+        whole_(model.whole_ladder(kLadderStep)),
+        known_(model.size(), whole_.rungs) {}
 
   PathSearch run() {
     const std::size_t end = model_.size() - 1;
+    if (mean_) mean_cost_ = typical_cost();
     set_stairs();
-    std::vector<PathStretch> stairs, plain;
-    if (!stair_ends_.empty()) stairs = path_stretches(chain_task(whole_, stair_limits_, 0.4), 0, end, mean_);
     PathSearch result;
-    // On a long path the stairs alone are looked at, as long as they lead through.
-    if (stairs.size() == 1 && stairs[0].first == 0 && stairs[0].last == end && end >= kManyPoints)
-      solve(stairs[0], plain, stairs, result.parts);
-    if (result.parts.empty()) {
-      plain = path_stretches(chain_task(whole_, limits_, 0.5), 0, end, mean_);
+    if (!add_motion(0, end, result.parts)) {
+      std::vector<PathStretch> stairs;
+      const auto plain = path_stretches(chain_task(whole_, limits_, 0.5), 0, end);
+      if (!stair_ends_.empty()) stairs = path_stretches(chain_task(whole_, stair_limits_, 0.4), 0, end);
       const bool fewer = !stairs.empty() && stairs.size() < plain.size();
-      for (const PathStretch& stretch : fewer ? stairs : plain) solve(stretch, plain, stairs, result.parts);
+      for (const PathStretch& stretch : fewer ? stairs : plain) {
+        if (add_motion(stretch.first, stretch.last, result.parts)) continue;
+        // Stairs that no real motion follows.
+        for (const PathStretch& part : plain) {
+          const std::size_t first = std::max(part.first, stretch.first),
+                            last = std::min(part.last, stretch.last);
+          if (first <= last) add_motion(first, last, result.parts);
+        }
+      }
     }
     result.obstacles = path_obstacles(model_, limits_, result.parts, threads_);
     if (progress_) progress_(1);
@@ -66,7 +75,7 @@ class Search {
     done_ += share * (1 - done_);
     Progress part;
     if (progress_) part = [this, from, to = done_](double at) { progress_(from + (to - from) * at); };
-    return {model_, ladder, limits, 0xFF, threads_, part};
+    return {model_, ladder, limits, kAllBranches, threads_, part, &ladder == &whole_ ? &known_ : nullptr};
   }
 
   // Where points are so near that no joint can turn by a rung between them: stairs of several points, between
@@ -89,59 +98,58 @@ class Search {
     if (!needed) stair_ends_.clear();
   }
 
-  void solve(const PathStretch& stretch, const std::vector<PathStretch>& plain,
-             const std::vector<PathStretch>& stairs, std::vector<PathPart>& parts) {
-    const auto same = [&](const PathStretch& other) {
-      return other.first == stretch.first && other.last == stretch.last;
-    };
-    std::optional<Found> best;
-    const auto offer = [&](std::optional<Found> found) {
-      if (found && (!best || found->objective < best->objective)) best = std::move(found);
-    };
-    const auto stair = std::find_if(stairs.begin(), stairs.end(), same);
-    if (stair != stairs.end()) offer(from_stairs(*stair));
-    const auto direct = std::find_if(plain.begin(), plain.end(), same);
-    if (direct != plain.end()) offer(from_ladder(*direct));
-    if (best) {
-      parts.push_back(part_of(stretch.first, *best));
-      return;
-    }
-    // Stairs that no real motion follows.
-    for (const PathStretch& part : plain) {
-      if (part.first > stretch.last || part.last < stretch.first) continue;
-      const PathStretch inside = clipped(part, stretch);
-      if (inside.first <= inside.last) {
-        if (const auto found = from_ladder(inside)) parts.push_back(part_of(inside.first, *found));
-      }
-    }
+  // What a cost is about: the mean of the least costs of some points, continuity aside.
+  double typical_cost() const {
+    const Ladder ladder = model_.whole_ladder(kCoarseStep);
+    const std::size_t count = std::min(model_.size(), kSomePoints);
+    std::vector<double> least(count, kUnreached);
+    parallel_for(count, threads_, [&](std::size_t s) {
+      PointRungs rungs;
+      model_.fill(ladder, s * (model_.size() - 1) / std::max<std::size_t>(1, count - 1), kAllBranches, rungs);
+      for (const BranchRungs& branch : rungs)
+        least[s] = std::min(least[s], *std::min_element(branch.cost.begin(), branch.cost.end()));
+    });
+    std::erase_if(least, [](double cost) { return !std::isfinite(cost); });
+    if (least.empty()) return 1;
+    return std::accumulate(least.begin(), least.end(), 0.0) / static_cast<double>(least.size());
   }
 
-  PathStretch clipped(const PathStretch& part, const PathStretch& to) {
-    if (part.first >= to.first && part.last <= to.last) return part;
-    const std::size_t first = std::max(part.first, to.first), last = std::min(part.last, to.last);
-    return path_stretches(chain_task(whole_, limits_, 0), first, last, mean_).front();
+  // Adds the best motion through these points, if there is one.
+  bool add_motion(std::size_t first, std::size_t last, std::vector<PathPart>& parts) {
+    std::optional<Found> best;
+    if (!stair_ends_.empty()) best = from_stairs(first, last);
+    if (auto found = from_ladder(first, last, best ? best->objective * (1 - kNoGain) : kUnreached);
+        found && (!best || found->objective < best->objective))
+      best = std::move(found);
+    if (best) parts.push_back(part_of(first, *best));
+    return best.has_value();
   }
 
   // The branches of a stretch that are as good as the best.
   static unsigned best_branches(const PathStretch& stretch) {
     unsigned branches = 0;
     for (int b = 0; b < kBranches; ++b) {
-      if (stretch.objective[b] <= stretch.best() * (1 + kSameCost)) branches |= 1U << b;
+      if (stretch.largest[b] <= stretch.best() * (1 + kSameCost)) branches |= 1U << b;
     }
     return branches;
   }
 
-  ChainWeights weights(double objective, std::size_t count) const {
-    if (mean_) return {objective / static_cast<double>(count), kMeanSmoothness};
-    return {objective, kTieSmoothness, objective * (1 + kCostRounding)};
-  }
-
-  std::optional<Found> best_of(ChainTask task, const PathStretch& stretch) const {
-    task.branches = best_branches(stretch);
-    auto chain = best_chain(task, stretch.first, stretch.last,
-                            weights(stretch.best(), stretch.last - stretch.first + 1));
+  // The best sequence of rungs through these points, over rungs that cost no more than `most_cost` where the
+  // largest cost counts.
+  std::optional<Found> best_of(ChainTask task, std::size_t first, std::size_t last,
+                               double most_cost = kUnreached) const {
+    ChainWeights weights{mean_cost_, kMeanSmoothness};
+    double largest = 0;
+    if (!mean_) {
+      const auto through = path_through(task, first, last, most_cost);
+      if (!through) return std::nullopt;
+      largest = through->best();
+      weights = {largest, kTieSmoothness, largest * (1 + kCostRounding)};
+      task.branches = best_branches(*through);
+    }
+    auto chain = best_chain(task, first, last, weights);
     if (!chain) return std::nullopt;
-    return Found{std::move(*chain), stretch.best()};
+    return Found{std::move(*chain), mean_ ? chain->total : largest};
   }
 
   // The best about a known motion, turned by up to `rungs` steps either way; nothing where none leads
@@ -156,23 +164,19 @@ class Search {
     ChainTask task = chain_task(ladder, limits_, 0);
     task.progress = nullptr;
     task.branches = 1U << branch;
-    const auto stretches = path_stretches(task, first, first + turn.size() - 1, mean_);
-    if (stretches.size() != 1 || stretches[0].first != first || stretches[0].last != first + turn.size() - 1)
-      return std::nullopt;
-    return best_of(task, stretches[0]);
+    return best_of(task, first, first + turn.size() - 1);
   }
 
-  std::optional<Found> from_ladder(const PathStretch& stretch) {
-    auto found = best_of(chain_task(whole_, limits_, 0.5), stretch);
-    return found ? std::optional(refined(stretch.first, std::move(*found))) : std::nullopt;
+  std::optional<Found> from_ladder(std::size_t first, std::size_t last, double most_cost) {
+    auto found = best_of(chain_task(whole_, limits_, 0.5), first, last, most_cost);
+    return found ? std::optional(refined(first, std::move(*found))) : std::nullopt;
   }
 
-  std::optional<Found> from_stairs(const PathStretch& stretch) {
-    const auto stairs = best_of(chain_task(whole_, stair_limits_, 0.5), stretch);
+  std::optional<Found> from_stairs(std::size_t first, std::size_t last) {
+    const auto stairs = best_of(chain_task(whole_, stair_limits_, 0.5), first, last);
     if (!stairs) return std::nullopt;
-    auto found = around(stretch.first, stairs->chain.branch, ramps(stretch.first, stairs->chain.turn),
-                        kRampStep, kRampRungs);
-    return found ? std::optional(refined(stretch.first, std::move(*found))) : std::nullopt;
+    auto found = around(first, stairs->chain.branch, ramps(first, stairs->chain.turn), kRampStep, kRampRungs);
+    return found ? std::optional(refined(first, std::move(*found))) : std::nullopt;
   }
 
   // Straight from the middle of one stair to the next.
@@ -244,9 +248,11 @@ class Search {
   const Progress& progress_;
   const std::vector<StepLimit> limits_;
   const Ladder whole_;
+  RungCosts known_;  // of whole_
   std::vector<StepLimit> stair_limits_;
   std::vector<std::size_t>
-      stair_ends_;  // the points that the stairs begin with, but the first; empty: none needed
+      stair_ends_;        // the points that the stairs begin with, but the first; empty: none needed
+  double mean_cost_ = 1;  // typical_cost(), of the mean objective
   double done_ = 0;
 };
 

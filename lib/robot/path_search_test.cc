@@ -149,6 +149,36 @@ TEST_CASE("points so near that no joint turns by a degree between them") {
   CHECK(found.parts[0].objective <= reference.parts[0].objective * 1.01);
 }
 
+TEST_CASE("dense paths are not worse than the plain ladder") {
+  // The slowest joint does not turn by a degree between two points, and others do: the plain ladder moves.
+  const PathCell cell = cell_for(path_cells()[0], 3);
+  PathTask task = path_task(cell, zigzag_path(cell, 1100, 0.5), "deflection");
+  task.mean_objective = GENERATE(false, true);
+  CAPTURE(task.mean_objective);
+  const PathModel model(cell.robot, task);
+  const std::size_t end = model.size() - 1;
+  const Ladder ladder = model.whole_ladder(radians_from_degrees(1));
+  const std::vector<StepLimit> limits = model.step_limits();
+  REQUIRE(limits[1].joint.minCoeff() < radians_from_degrees(1));
+  REQUIRE(limits[1].joint.maxCoeff() > radians_from_degrees(1));
+  const ChainTask plain{model, ladder, limits, kAllBranches, 2, {}};
+  double best = 0;
+  if (task.mean_objective) {
+    const auto chain = best_chain(plain, 0, end, {1, 0});
+    REQUIRE(chain);
+    best = chain->total / static_cast<double>(model.size());
+  } else {
+    const auto through = path_through(plain, 0, end);
+    REQUIRE(through);
+    best = through->best();
+  }
+  const PathSearch found = search_path(model, 2);
+  REQUIRE(found.parts.size() == 1);
+  check_part(cell.robot, task, model, found.parts[0]);
+  // What turning weighs beside the mean.
+  CHECK(found.parts[0].objective <= best * (1 + 1e-4));
+}
+
 TEST_CASE("limits on the turning of the redundancy and its interval are kept") {
   const PathCell cell = cell_for(path_cells()[0], 3);
   PathTask task = path_task(cell, zigzag_path(cell, 60, 0.1), "deflection");

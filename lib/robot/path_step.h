@@ -14,14 +14,12 @@
 
 namespace stablecut::robot {
 
-inline constexpr double kUnreached = std::numeric_limits<double>::infinity();
 inline constexpr int kBundle = 8;                // rungs
 inline constexpr double kBundleRounding = 1e-9;  // rad
 
 /// The best value of each copy at each rung so far, and the least of a rung.
 struct Front {
   std::vector<double> value, least;
-  std::vector<int> sorted;            // rungs by least value, those that are not allowed left out
   std::vector<std::uint32_t> copies;  // [rung] a bit for each that has a value
   bool alive = false;
 
@@ -68,6 +66,11 @@ class RungStep {
     const double most_reach = task.ladder.closed ? 0.5 * task.ladder.rungs : task.ladder.rungs;
     reach_ = static_cast<int>(std::min(most_turn_ / task.ladder.step + 1, most_reach));
     bundles_ = bundles();
+    for (int number = 0; number < static_cast<int>(bundles_.size()); ++number) {
+      if (bundles_[number].copies != 0) by_value_.push_back(number);
+    }
+    std::stable_sort(by_value_.begin(), by_value_.end(),
+                     [&](int a, int b) { return bundles_[a].least < bundles_[b].least; });
   }
 
   void take(int rung, Front& to, std::uint16_t* back) {
@@ -79,10 +82,10 @@ class RungStep {
     wrapped_ = true;  // perhaps
     look_aside(offset_);
     for (const Near& near : near_) {
-      if (bound_ <= enough) break;
+      if (bound_ <= enough || bundles_[near.bundle].least >= bound_) break;
       wrapped_ = near.wrapped;
       if (may_help(&bundle_values_[static_cast<std::size_t>(near.bundle) * copies_.combinations],
-                   bundles_[near.bundle].least))
+                   bundles_[near.bundle].least, rule_.penalty(least_turn(near.bundle))))
         look_through(near.bundle);
     }
     for (int c = 0; c < copies_.combinations; ++c) {
@@ -105,9 +108,9 @@ class RungStep {
     if (task_.ladder.closed) centre += centre < 0 ? n : centre >= n ? -n : 0;
     centre = std::clamp(centre, 0, n - 1) / kBundle;
     const int far = std::min(reach_ / kBundle + 2, task_.ladder.closed ? count / 2 : count);
-    for (int d = 0; d <= far; ++d) {
-      take_bundle(centre + d);
-      if (d > 0) take_bundle(centre - d);
+    for (const int number : by_value_) {
+      const int aside = std::abs(number - centre);
+      if (std::min(aside, task_.ladder.closed ? count - aside : aside) <= far) take_bundle(number);
     }
     possible_ &= now_.copies[rung];
   }
@@ -160,17 +163,14 @@ class RungStep {
 
   // Takes a bundle that steps may come from, and the copies that they lead to.
   void take_bundle(int number) {
-    const int count = static_cast<int>(bundles_.size());
-    if (task_.ladder.closed) number += number < 0 ? count : number >= count ? -count : 0;
-    if (number < 0 || number >= count) return;
     const Bundle& bundle = bundles_[number];
-    if (bundle.copies == 0) return;
     std::uint32_t copies = bundle.copies;
     bool wrapped = false;
     for (int j = kJoints; j-- > 0;) {
       const double step = angle_[j] - bundle.middle[j];
       double off = std::abs(step);
-      if (copies_.count[j] > 1) off = std::abs(off - kTwoPi * std::floor(off * (1 / kTwoPi) + 0.5));
+      // Angles and middles of bundles lie within a turn and a half.
+      if (copies_.count[j] > 1 && off > kPi) off = std::abs(off - kTwoPi);
       if (off > bundle.half[j]) return;
       if (copies_.count[j] == 1 || (!bundle.both_ends[j] && std::abs(step) <= kPi)) continue;
       wrapped = true;
@@ -182,15 +182,22 @@ class RungStep {
     near_.push_back({number, wrapped});
   }
 
-  // Whether values before, one for each copy, can be better than what a copy here has. Where copies change
-  // their numbers on the way the least of the values decides.
-  bool may_help(const double* values, double least_value) const {
-    if (!(least_value < bound_)) return false;
+  // Whether values before, one for each copy, can be better than what a copy here has, at that penalty.
+  // Where copies change their numbers on the way the least of the values decides.
+  bool may_help(const double* values, double least_value, double penalty) const {
+    if (!(least_value + penalty < bound_)) return false;
     if (wrapped_) return true;
     for (int c = 0; c < copies_.combinations; ++c) {
-      if (values[c] < best_[c] && (possible_ >> c & 1)) return true;
+      if (values[c] + penalty < best_[c] && (possible_ >> c & 1)) return true;
     }
     return false;
+  }
+
+  // What the tool turns by at least from any rung of a bundle, rad.
+  double least_turn(int number) const {
+    const int aside = aside_of(number * kBundle), end = aside_of(number * kBundle + kBundle - 1);
+    if (aside > end || (aside <= 1 && end >= -1)) return 0;  // on either side, or across the middle
+    return (std::min(std::abs(aside), std::abs(end)) - 1) * task_.ladder.step;
   }
 
   void look_through(int number) {
@@ -212,11 +219,11 @@ class RungStep {
   }
 
   void look(int k, int aside) {
-    if (!may_help(&from_.value[static_cast<std::size_t>(k) * copies_.combinations], from_.least[k])) return;
     const double turn = rest_ - aside * task_.ladder.step;
     if (std::abs(turn) > most_turn_) return;
     const double penalty = rule_.penalty(turn);
-    if (!(from_.least[k] + penalty < bound_)) return;
+    if (!may_help(&from_.value[static_cast<std::size_t>(k) * copies_.combinations], from_.least[k], penalty))
+      return;
     // The joint that was too slow last is the likeliest to be so again.
     if (!follows(slow_, k)) return;
     for (int j = 0; j < kJoints; ++j) {
@@ -285,6 +292,7 @@ class RungStep {
   int slow_ = 5, offset_ = 0;  // as they were last
   std::vector<Bundle> bundles_;
   std::vector<double> bundle_values_;  // [bundle][copy] the least
+  std::vector<int> by_value_;          // bundles that hold anything, the least value first
   std::vector<Near> near_;
   bool wrapped_ = false;
   std::uint32_t possible_ = 0;  // the copies that they may lead to
