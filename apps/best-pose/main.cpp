@@ -137,8 +137,15 @@ class BestPose : public cli::Tool {
   void drive_path(const robot::Robot& robot, const robot::Elasticity& elasticity,
                   const document::PoseDocument& document) {
     const document::Input input = read_input(along_.path, cli::InputForm::kByContent);
-    const robot::PathTask task = path_task(read_path(input, along_, where_), along_, where_, robot,
-                                           elasticity, document.task, force_frame_ == "feed");
+    const document::ToolPathDocument path = read_path(input, along_, where_);
+    robot::PathTask task =
+        path_task(path.path, along_, where_, robot, elasticity, document.task, force_frame_ == "feed");
+    document::Json placement;
+    if (!along_.place.empty()) {
+      cli::ProgressBar bar("best-pose: places", !quiet());
+      placement =
+          place_path(robot, task, path.frame, along_.place, threads(), [&](double at) { bar.show(at); });
+    }
     PathResult result;
     {
       cli::ProgressBar bar("best-pose: path", !quiet());
@@ -148,6 +155,7 @@ class BestPose : public cli::Tool {
       if (!along_.partial || result.document.is_null()) throw NoAnswer(along_.path + ": " + result.undone);
       warn(along_.path + ": " + result.undone);
     }
+    if (!placement.is_null()) result.document["placement"] = std::move(placement);
     write_document(main_output(), std::move(result.document));
     if (!along_.joints_csv.empty()) write_text(along_.joints_csv, std::move(result.joints_csv));
   }

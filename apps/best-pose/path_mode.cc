@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/error.h"
 #include "base/parallel.h"
 #include "base/range.h"
 #include "base/units.h"
@@ -14,6 +15,7 @@
 namespace stablecut {
 namespace {
 
+constexpr int kMostPlaces = 100'000;
 constexpr double kDefaultJointSpeedDeg = 60;  // deg/s, of a joint whose speed nobody says
 
 // --joint-speed: one number, or one for each joint; deg/s.
@@ -33,6 +35,31 @@ robot::JointAngles joint_speeds(const std::string& text, const robot::Robot& rob
   return speeds;
 }
 
+// --place: three or four intervals.
+robot::PlaceGrid place_grid(const std::string& text) {
+  std::vector<Range> ranges;
+  for (const std::string_view field : split(text, ',')) {
+    const auto range = parse_range(field);
+    cli::refuse_if(!range, "--place: " + text + ": expected FROM:TO:COUNT for x, y, perhaps z, and the turn");
+    ranges.push_back(*range);
+  }
+  cli::refuse_if(ranges.size() != 3 && ranges.size() != 4,
+                 "--place: " + text + ": expected FROM:TO:COUNT for x, y, perhaps z, and the turn");
+  const auto scaled = [](Range range, double unit) {
+    return Range{range.from * unit, range.to * unit, range.count};
+  };
+  robot::PlaceGrid grid;
+  grid.x = scaled(ranges[0], metres_from_mm(1));
+  grid.y = scaled(ranges[1], metres_from_mm(1));
+  if (ranges.size() == 4) grid.z = scaled(ranges[2], metres_from_mm(1));
+  grid.turn = scaled(ranges.back(), radians_from_degrees(1));
+  double size = 1;
+  for (const Range& range : ranges) size *= range.count;
+  cli::refuse_if(size > kMostPlaces,
+                 "--place: " + text + ": expected at most " + std::to_string(kMostPlaces) + " places");
+  return grid;
+}
+
 Eigen::Isometry3d frame_of(const robot::Plane& plane) {
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
   frame.linear() << plane.x_axis, plane.y_axis, plane.x_axis.cross(plane.y_axis);
@@ -49,6 +76,7 @@ std::string PathOptions::without_path() const {
   if (!joints_csv.empty()) return "--joints";
   if (speed_mm_per_s) return "--path-speed";
   if (redundancy_rate_deg_per_mm) return "--redundancy-rate";
+  if (!place.empty()) return "--place";
   return partial ? "--partial" : "";
 }
 
@@ -70,12 +98,17 @@ void add_path_options(CLI::App& app, PathOptions& options) {
   cli::add_number_option(app, "--redundancy-rate", options.redundancy_rate_deg_per_mm,
                          "Most turning of the tool about its axis, deg per mm of path",
                          "a number not below 0", not_negative);
+  app.add_option(
+         "--place", options.place,
+         "Also search where to put the workpiece: how far along x and y, mm, and its turn about z, deg, or "
+         "along x, y and z and its turn")
+      ->type_name("FROM:TO:COUNT,...");
   app.add_flag("--partial", options.partial,
                "Write what can be driven of a path that cannot be driven as a whole");
 }
 
-robot::ToolPath read_path(const document::Input& input, const PathOptions& options,
-                          const SearchOptions& where) {
+document::ToolPathDocument read_path(const document::Input& input, const PathOptions& options,
+                                     const SearchOptions& where) {
   document::ToolPathDefaults defaults;
   if (where.has_plane()) defaults.frame = frame_of(search_plane(where).plane);
   if (options.speed_mm_per_s) defaults.speed = *options.speed_mm_per_s * 1e-3;
@@ -103,6 +136,17 @@ robot::PathTask path_task(robot::ToolPath path, const PathOptions& options, cons
     task.redundancy = Range{radians_from_degrees(turn->from), radians_from_degrees(turn->to), turn->count};
   }
   return task;
+}
+
+document::Json place_path(const robot::Robot& robot, robot::PathTask& task,
+                          const Eigen::Isometry3d& workpiece, const std::string& place, int threads,
+                          const Progress& progress) {
+  const robot::PlaceSearch search =
+      robot::search_places(robot, task, place_grid(place), workpiece, threads, progress);
+  if (!search.best) throw NoAnswer(no_place_text(search));
+  const robot::Placement& best = search.map[*search.best].at;
+  task.path = robot::placed(task.path, best, workpiece);
+  return document::placement_to_json(search, *task.stiffness.index, best.frame(workpiece));
 }
 
 PathResult solve_path(const robot::Robot& robot, const robot::PathTask& task,

@@ -8,13 +8,14 @@
 
 #include "base/progress.h"
 #include "document/kinds/pose_path_json.h"
+#include "document/kinds/tool_path_json.h"
 #include "search_task.h"
 
 namespace stablecut {
 
 /// As the options give it.
 struct PathOptions {
-  std::string path, objective, axis, joint_speed, joints_csv;
+  std::string path, objective, axis, joint_speed, joints_csv, place;
   std::optional<double> speed_mm_per_s, redundancy_rate_deg_per_mm;
   bool partial = false;
 
@@ -26,14 +27,20 @@ struct PathOptions {
 /// Declares --path and what belongs to it, --joints (a file) apart.
 void add_path_options(CLI::App& app, PathOptions& options);
 
-/// The path in the base frame. Throws DataError and WrongUsage.
-robot::ToolPath read_path(const document::Input& input, const PathOptions& options,
-                          const SearchOptions& where);
+/// The path in the base frame, and its workpiece's. Throws DataError and WrongUsage.
+document::ToolPathDocument read_path(const document::Input& input, const PathOptions& options,
+                                     const SearchOptions& where);
 
 /// The task of the path. `feed_frame`: the force is in the frame of the feed. Throws WrongUsage.
 robot::PathTask path_task(robot::ToolPath path, const PathOptions& options, const SearchOptions& where,
                           const robot::Robot& robot, const robot::Elasticity& elasticity,
                           const robot::StiffnessTask& stiffness, bool feed_frame);
+
+/// --place: moves the task's path to the best place of its workpiece, whose frame this is, and gives the
+/// field `placement` of the document. Throws WrongUsage, and NoAnswer where no place lets it be driven.
+document::Json place_path(const robot::Robot& robot, robot::PathTask& task,
+                          const Eigen::Isometry3d& workpiece, const std::string& place, int threads,
+                          const Progress& progress);
 
 /// What the search of a path gives: the documents, and what it could not do in words, empty where all is
 /// done.

@@ -45,6 +45,14 @@ check_jq "speeds of the robot's document" slow-poses.json '.joint_speed_limit_de
 jq '.std_n_m_per_rad = [0, 4.53e5, 0, 0, 0, 0]' k2d.json >uncertain.json
 run --path line.json --force 0,0,-400 uncertain.json -o spread.json
 check_jq "deviations of the deflections" spread.json 'all(.points[]; .deflection_std_um > 0)'
+jq '.discrepancy = {relative: 0.1, absolute_um: 20}' k2d.json >off.json
+run --path line.json --force 0,0,-400 off.json -o off-path.json
+check_jq "what a new pose is off by" off-path.json 'all(.points[]; (.score * 0.1) as $r | .deflection_std_um / ($r * $r + 400 | sqrt) - 1 | fabs < 1e-9)'
+jq '.model = "base" | .springs = [{name: "base.x", compliance_m_per_n: 1e-7}, {name: "base.y", compliance_m_per_n: 5e-8}]' k2d.json >base.json
+run --path line.json --force 0,400,0 base.json -o base-path.json
+jq '{format: "stablecut/pose-list/1", poses: [.points[] | {joints_deg}]}' base-path.json >base-poses.json
+run --evaluate base-poses.json --index deflection --force 0,400,0 base.json -o base-scores.json
+check_jq "the deflection of all springs, as of single poses" base-path.json '[[.points[].score], [$e[0].evaluated[].score]] | transpose | all(.[0] / .[1] - 1 | fabs < 1e-9)' --slurpfile e base-scores.json
 
 # What cannot be driven.
 jq '.points = [range(41) | {position_mm: [. * 100, 0, 0], axis: [0, 0, -1]}]' line.json >long.json
@@ -57,6 +65,24 @@ check "the rest of a path" run --path long.json --partial k2d.json -o rest.json
 check_jq "with what is left out" rest.json '(.points | length) == .obstacles[0].first and .obstacles[-1].last == 40 and .obstacles[-1].constraint == "reach"'
 best-pose --robot offset.json --path long.json --partial k2d.json -o rest.json 2>.err
 check "is warned about" grep -q '^best-pose: warning: long.json: points .* out of reach' .err
+
+# Where to put the workpiece.
+check "places" run --path line.json --force 0,400,0 --place -200:400:4,-100:100:3,-90:90:3 --no-provenance k2d.json -o place.json
+check_jq "a map of all places" place.json '(.placement.map | length) == 36 and ([.placement.map[].outcome] | unique | all(IN("driven", "not-better", "no-pose", "no-motion")))'
+check_jq "the best is the best of those that were searched, and the path's" place.json '.placement.best.objective as $b | ([.placement.map[] | .objective | select(.)] | min) == $b
+  and (.worst.score / $b - 1 | fabs < 1e-9) and all(.placement.map[] | select(.outcome == "not-better"); .bound >= $b * 0.98 * (1 - 1e-9))'
+check_jq "and not worse than where the path puts it" place.json '.placement.best.objective <= $l[0].worst.score * (1 + 1e-9)' --slurpfile l line-poses.json
+jq --slurpfile p place.json '.frame = $p[0].placement.frame' line.json >placed.json
+run --path placed.json --force 0,400,0 k2d.json -o placed-poses.json
+check_jq "its frame in the path's document gives the same motion" placed-poses.json '.worst.score / $p[0].worst.score - 1 | fabs < 1e-9' --slurpfile p place.json
+run --path line.json --force 0,400,0 --place 0:0:1,0:0:1,0:0:1 k2d.json -o stay.json
+check_jq "one place: where it was" stay.json '.worst.score == $l[0].worst.score and .placement.map[0].outcome == "driven"' --slurpfile l line-poses.json
+run --path line.json --force 0,400,0 --place 0:0:1,0:0:1,-100:100:2,0:0:1 k2d.json -o high.json
+check_jq "three lengths and a turn" high.json '[.placement.map[].z_mm] == [-100, 100]'
+refused 1 '^best-pose: --place: the path is driven at none of 4 places: at 4 some point has no pose' run --path line.json --place 9000:9500:4,0:0:1,0:0:1 k2d.json
+refused 64 '^best-pose: --place: 0:1:2,0:1:2: expected FROM:TO:COUNT for x, y' run --path line.json --place 0:1:2,0:1:2 k2d.json
+refused 64 '^best-pose: --place: 0:1,0:1:2,0:1:2: expected FROM:TO:COUNT for x, y' run --path line.json --place 0:1,0:1:2,0:1:2 k2d.json
+refused 64 '^best-pose: --place: expected with --path only' run --height 1600 --place 0:1:2,0:1:2,0:0:1 k2d.json
 
 # Wrong use and wrong data.
 refused 64 '^best-pose: --objective: expected with --path only' run --height 1600 --objective mean k2d.json

@@ -1,5 +1,7 @@
 #include "path_words.h"
 
+#include <algorithm>
+
 #include "base/number_text.h"
 #include "base/units.h"
 
@@ -49,6 +51,15 @@ std::string obstacle_text(const robot::PathObstacle& obstacle, const robot::Robo
 }
 
 }  // namespace
+
+std::string no_place_text(const robot::PlaceSearch& search) {
+  const auto no_pose = std::count_if(
+      search.map.begin(), search.map.end(),
+      [](const robot::PlacedPath& place) { return place.outcome == robot::PlacedPath::Outcome::kNoPose; });
+  return "--place: the path is driven at none of " + std::to_string(search.map.size()) + " places: at " +
+         std::to_string(no_pose) +
+         " some point has no pose that is allowed, at the others no motion leads through";
+}
 
 std::string obstacles_text(const std::vector<robot::PathObstacle>& obstacles, const robot::Robot& robot,
                            const robot::PathTask& task) {

@@ -42,12 +42,19 @@ class Search {
         progress_(progress),
         limits_(model.step_limits()),
         whole_(model.whole_ladder(kLadderStep)),
-        known_(model.size(), whole_.rungs) {}
+        known_(model.size(), whole_.rungs) {
+    if (mean_) mean_cost_ = typical_cost();
+    set_stairs();
+  }
+
+  std::optional<PathPart> whole_motion() {
+    std::vector<PathPart> parts;
+    if (!add_motion(0, model_.size() - 1, parts)) return std::nullopt;
+    return std::move(parts.front());
+  }
 
   PathSearch run() {
     const std::size_t end = model_.size() - 1;
-    if (mean_) mean_cost_ = typical_cost();
-    set_stairs();
     PathSearch result;
     if (!add_motion(0, end, result.parts)) {
       std::vector<PathStretch> stairs;
@@ -257,6 +264,10 @@ class Search {
 };
 
 }  // namespace
+
+std::optional<PathPart> search_motion(const PathModel& model, int threads) {
+  return Search(model, threads, {}).whole_motion();
+}
 
 PathSearch search_path(const PathModel& model, int threads, const Progress& progress) {
   return Search(model, threads, progress).run();

@@ -2,6 +2,7 @@
 // "Paths".
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "base/progress.h"
@@ -45,6 +46,9 @@ struct PathSearch {
 /// Dynamic programming on a ladder of a degree, all branches and copies, then on finer ladders about what was
 /// found. What it finds keeps all limits, and is not worse than the ladder's best.
 PathSearch search_path(const PathModel& model, int threads, const Progress& progress = {});
+
+/// The motion through the whole path, if there is one: search_path() without what is said of obstacles.
+std::optional<PathPart> search_motion(const PathModel& model, int threads);
 
 /// Why the worst point of a part is not better.
 struct WorstPoint {

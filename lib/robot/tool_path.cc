@@ -39,6 +39,15 @@ Eigen::Vector3d carried(const Eigen::Vector3d& x, const Eigen::Vector3d& from, c
 
 }  // namespace
 
+ToolPath moved(ToolPath path, const Eigen::Isometry3d& move) {
+  for (ToolPathPoint& point : path) {
+    point.position = move * point.position;
+    point.axis = move.linear() * point.axis;
+    if (point.feed) point.feed = move.linear() * *point.feed;
+  }
+  return path;
+}
+
 PathFrames path_frames(const ToolPath& path) {
   PathFrames frames;
   for (std::size_t i = 0; i < path.size(); ++i) {

@@ -17,6 +17,9 @@ struct ToolPathPoint {
 };
 using ToolPath = std::vector<ToolPathPoint>;
 
+/// The path of a workpiece that is moved so.
+ToolPath moved(ToolPath path, const Eigen::Isometry3d& move);
+
 /// What follows from a path whatever robot drives it. A "turn" of the tool is about its own axis, counted
 /// from a frame that is carried along the path by the least rotation from one axis to the next: a turn that
 /// stays the same is no turning of the tool about its axis.

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
+#include "base/units.h"
 #include "document/kinds/joints_json.h"
 
 namespace stablecut::document {
@@ -31,6 +32,15 @@ Eigen::Isometry3d frame_from(const Node& node) {
   // The nearest rotation, unless the matrix is one already.
   if (error <= 1e-15) frame.linear() = matrix;
   return frame;
+}
+
+Json frame_to_json(const Eigen::Isometry3d& frame) {
+  Json translation = Json::array(), rotation = Json::array();
+  for (int i = 0; i < 3; ++i) {
+    translation.push_back(mm_from_metres(frame.translation()[i]));
+    rotation.push_back({frame.linear()(i, 0), frame.linear()(i, 1), frame.linear()(i, 2)});
+  }
+  return {{"translation_mm", std::move(translation)}, {"rotation", std::move(rotation)}};
 }
 
 }  // namespace stablecut::document

@@ -10,4 +10,6 @@ namespace stablecut::document {
 /// `{"translation_mm", "rotation"}`, the rotation as rows; m.
 Eigen::Isometry3d frame_from(const Node& node);
 
+Json frame_to_json(const Eigen::Isometry3d& frame);
+
 }  // namespace stablecut::document

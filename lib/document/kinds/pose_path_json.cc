@@ -1,7 +1,10 @@
 #include "document/kinds/pose_path_json.h"
 
+#include <cmath>
+
 #include "base/number_text.h"
 #include "base/units.h"
+#include "document/kinds/frame_json.h"
 #include "document/kinds/joints_json.h"
 #include "document/kinds/pose_json.h"
 
@@ -75,7 +78,44 @@ Json worst_to_json(const PosePathDocument& document, const robot::Robot& robot) 
   return json;
 }
 
+const char* outcome_word(robot::PlacedPath::Outcome outcome) {
+  switch (outcome) {
+    case robot::PlacedPath::Outcome::kDriven:
+      return "driven";
+    case robot::PlacedPath::Outcome::kNotBetter:
+      return "not-better";
+    case robot::PlacedPath::Outcome::kNoPose:
+      return "no-pose";
+    case robot::PlacedPath::Outcome::kNoMotion:
+      break;
+  }
+  return "no-motion";
+}
+
+Json place_to_json(const robot::Placement& at) {
+  return {{"x_mm", mm_from_metres(at.shift.x())},
+          {"y_mm", mm_from_metres(at.shift.y())},
+          {"z_mm", mm_from_metres(at.shift.z())},
+          {"turn_deg", document_degrees(at.turn)}};
+}
+
 }  // namespace
+
+Json placement_to_json(const robot::PlaceSearch& search, const robot::StiffnessIndex& index,
+                       const Eigen::Isometry3d& frame) {
+  Json map = Json::array();
+  for (const robot::PlacedPath& place : search.map) {
+    Json json = place_to_json(place.at);
+    json["outcome"] = outcome_word(place.outcome);
+    const bool driven = place.outcome == robot::PlacedPath::Outcome::kDriven;
+    json["objective"] = driven ? Json(score_of(place.objective, index)) : Json();
+    json["bound"] = std::isfinite(place.bound) ? Json(score_of(place.bound, index)) : Json();
+    map.push_back(std::move(json));
+  }
+  Json best = place_to_json(search.map[*search.best].at);
+  best["objective"] = score_of(search.map[*search.best].objective, index);
+  return {{"best", std::move(best)}, {"frame", frame_to_json(frame)}, {"map", std::move(map)}};
+}
 
 Json pose_path_to_json(const PosePathDocument& document, const robot::Robot& robot) {
   const robot::StiffnessIndex& index = *document.task.stiffness.index;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "document/text/json_text.h"
+#include "robot/path_place.h"
 #include "robot/path_search.h"
 #include "robot/pose_report.h"
 
@@ -18,6 +19,11 @@ struct PosePathDocument {
   std::size_t worst_part = 0;              ///< the part that holds the worst point
   robot::WorstPoint worst;
 };
+
+/// Field `placement`: the best place, the workpiece's frame (base frame) there, and the map. `search.best`
+/// must be there.
+Json placement_to_json(const robot::PlaceSearch& search, const robot::StiffnessIndex& index,
+                       const Eigen::Isometry3d& frame);
 
 /// Without provenance.
 Json pose_path_to_json(const PosePathDocument& document, const robot::Robot& robot);

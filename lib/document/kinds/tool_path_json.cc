@@ -19,17 +19,13 @@ Eigen::Vector3d direction_from(const Node& node) {
 
 }  // namespace
 
-robot::ToolPath in_base_frame(robot::ToolPath path, const Eigen::Isometry3d& frame) {
-  for (robot::ToolPathPoint& point : path) {
-    point.position = frame * point.position;
-    point.axis = frame.linear() * point.axis;
-    if (point.feed) point.feed = frame.linear() * *point.feed;
-  }
-  return path;
+ToolPathDocument in_base_frame(robot::ToolPath path, const std::optional<Eigen::Isometry3d>& frame) {
+  if (!frame) return {std::move(path), Eigen::Isometry3d::Identity()};
+  return {robot::moved(std::move(path), *frame), *frame};
 }
 
-robot::ToolPath tool_path_from_json(const Json& document, const Source& source,
-                                    const ToolPathDefaults& defaults) {
+ToolPathDocument tool_path_from_json(const Json& document, const Source& source,
+                                     const ToolPathDefaults& defaults) {
   const Node root = document_root(document, source, "tool-path");
   root.check_names({"format", "frame", "speed_mm_per_s", "points", "label", "provenance"});
   std::optional<Eigen::Isometry3d> frame = defaults.frame;
@@ -54,7 +50,7 @@ robot::ToolPath tool_path_from_json(const Json& document, const Source& source,
     point.speed = own ? own->number(kSpeed) * 1e-3 : *speed;
     path.push_back(point);
   }
-  return frame ? in_base_frame(std::move(path), *frame) : path;
+  return in_base_frame(std::move(path), frame);
 }
 
 }  // namespace stablecut::document

@@ -20,11 +20,17 @@ struct ToolPathDefaults {
 
 inline constexpr int kMostPathPoints = 100'000;
 
-/// In the base frame. Throws DataError, also where the document has a frame and the defaults another.
-robot::ToolPath tool_path_from_json(const Json& document, const Source& source,
-                                    const ToolPathDefaults& defaults);
+/// A path in the base frame, and its workpiece's frame there; the base frame itself where nothing says.
+struct ToolPathDocument {
+  robot::ToolPath path;
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+};
+
+/// Throws DataError, also where the document has a frame and the defaults another.
+ToolPathDocument tool_path_from_json(const Json& document, const Source& source,
+                                     const ToolPathDefaults& defaults);
 
 /// A path in the workpiece's frame, moved into the base frame.
-robot::ToolPath in_base_frame(robot::ToolPath path, const Eigen::Isometry3d& frame);
+ToolPathDocument in_base_frame(robot::ToolPath path, const std::optional<Eigen::Isometry3d>& frame);
 
 }  // namespace stablecut::document

@@ -9,7 +9,7 @@ namespace {
 
 robot::ToolPath read(const std::string& text, const ToolPathDefaults& defaults = {}) {
   const Source source{"path.json", text};
-  return tool_path_from_json(parse_json(source), source, defaults);
+  return tool_path_from_json(parse_json(source), source, defaults).path;
 }
 
 TEST_CASE("a tool path in its workpiece's frame") {

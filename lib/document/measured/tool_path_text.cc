@@ -47,9 +47,9 @@ class PathPoints {
     path_.push_back({position, axis.stableNormalized(), feed, speed});
     if (feed) path_.back().feed = feed->stableNormalized();
   }
-  robot::ToolPath take() {
+  ToolPathDocument take() {
     if (path_.empty()) throw DataError(source_.name, "", "", "expected the points of a path");
-    return defaults_.frame ? in_base_frame(std::move(path_), *defaults_.frame) : std::move(path_);
+    return in_base_frame(std::move(path_), defaults_.frame);
   }
 
  private:
@@ -108,7 +108,7 @@ class WordReader {
     }
     points_.add(line_, position_ * 1e-3, ijk_, speed_);
   }
-  robot::ToolPath take() { return points_.take(); }
+  ToolPathDocument take() { return points_.take(); }
 
  private:
   void cutter_location(const std::string& text) {
@@ -227,7 +227,7 @@ std::pair<int, double> column_of(const Source& source, const TableRow& header, s
   return {kColumns, 1};
 }
 
-robot::ToolPath path_of_table(const Source& source, const ToolPathDefaults& defaults) {
+ToolPathDocument path_of_table(const Source& source, const ToolPathDefaults& defaults) {
   std::vector<TableRow> rows = table_rows(source);
   if (rows.empty()) throw DataError(source.name, "", "", "empty input: expected the points of a path");
   std::array<std::optional<std::pair<std::size_t, double>>, kColumns> columns;
@@ -278,7 +278,7 @@ robot::ToolPath path_of_table(const Source& source, const ToolPathDefaults& defa
 
 }  // namespace
 
-robot::ToolPath tool_path_from_text(const Source& source, const ToolPathDefaults& defaults) {
+ToolPathDocument tool_path_from_text(const Source& source, const ToolPathDefaults& defaults) {
   std::vector<std::string> lines;
   bool words = false;
   for (const std::string_view line : split(source.text, '\n')) {

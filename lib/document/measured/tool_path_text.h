@@ -9,7 +9,7 @@ namespace stablecut::document {
 /// stays), `GOTO/x,y,z,i,j,k`, a table with a header (x, y, z; i, j, k or axis_x, axis_y, axis_z; feed_x,
 /// ...; speed; with units), or 3 or 6 bare columns. i, j, k point from the tip to the holder unless the
 /// defaults say otherwise, axis_x, ... from the holder to the tip; none is 0, 0, 1 up from the workpiece.
-/// Base frame, SI. Throws DataError.
-robot::ToolPath tool_path_from_text(const Source& source, const ToolPathDefaults& defaults);
+/// Throws DataError.
+ToolPathDocument tool_path_from_text(const Source& source, const ToolPathDefaults& defaults);
 
 }  // namespace stablecut::document

@@ -8,7 +8,7 @@ namespace stablecut::document {
 namespace {
 
 robot::ToolPath read(const std::string& text, ToolPathDefaults defaults = {std::nullopt, 0.02, false}) {
-  return tool_path_from_text({"path.txt", text}, defaults);
+  return tool_path_from_text({"path.txt", text}, defaults).path;
 }
 
 void check_two(const robot::ToolPath& path, double speed) {
