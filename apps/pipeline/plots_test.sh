@@ -91,6 +91,12 @@ best-pose --robot "$robot" --path broken.json --partial --force 0,0,-100 --quiet
 check_jq "a path in parts" partial.json '(.parts | length) > 1'
 "$scripts/plot-path" partial.json -o partial.svg 2>.err
 check "is drawn, with its deviations" test -s partial.svg -a ! -s .err
+best-pose --robot "$robot" --path tool-path.json --place=-100:100:3,-100:100:3,0:45:2 --force 0,0,-100 --quiet k2d.json -o place.json
+"$scripts/plot-path" place.json -o place.svg 2>.err
+check "places, and which is the best" grep -q 'best: -*[0-9]*, -*[0-9]*, 0 mm, [0-9]* deg' place.svg
+check "without a word" test ! -s .err
+jq '.placement.map |= map(.outcome = "no-pose" | .objective = null | .bound = null)' place.json >nowhere.json
+check "places that are not driven" "$scripts/plot-path" nowhere.json -o nowhere.svg
 jq '.points[3] |= del(.tcp_mm)' path.json >short.json
 refused 65 '^plot-path: short.json: /points: expected poses' "$scripts/plot-path" short.json -o x.svg
 refused 65 '^plot-path: wall.json: /height_mm: expected a horizontal plane' "$scripts/plot-path" path.json --map wall.json -o x.svg

@@ -103,6 +103,8 @@ with tempfile.TemporaryDirectory() as folder:
         "pose map": json.loads(map_path.read_text()),
         "path": run("best-pose", *robot, "--path", str(source / "testdata/zigzag-path.json"), "--force", "200,400,-150",
                     "--force-frame", "feed", stdin=json.dumps(stiffness)),
+        "path with places": run("best-pose", *robot, "--path", str(source / "testdata/zigzag-path.json"), "--place=-900:900:3,0:0:1,0:90:2",
+                                str(stiffness_path)),
         "path in parts": run("best-pose", *robot, "--path", "-", "--plane-origin", "2300,0,1600", "--path-speed", "50",
                              "--partial", str(stiffness_path), stdin="".join(f"{20 * i} 0 0\n" for i in range(31))),
         "tool path": json.loads((source / "testdata/zigzag-path.json").read_text()),
