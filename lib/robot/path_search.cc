@@ -17,9 +17,10 @@ constexpr double kMeanSmoothness = 1e-4;  // the same beside the mean
 constexpr double kSameCost = 1e-9;        // relative: branches that are as good
 constexpr double kCostRounding = 1e-12;   // relative
 constexpr double kFinerSteps[] = {kPi / 720, kPi / 2880, kPi / 11520, kPi / 46080};
-constexpr int kFinerRungs = 4;    // on either side of what was found
-constexpr int kMostRounds = 8;    // with one step
-constexpr double kNoGain = 1e-6;  // relative
+constexpr int kFinerRungs = 4;       // on either side of what was found
+constexpr int kMostRounds = 8;       // with one step
+constexpr double kNoGain = 1e-5;     // relative, of the objective
+constexpr double kNoTieGain = 1e-4;  // relative, of what is least beside the largest cost
 constexpr double kStairStep =
     3 * kPi / 180;  // rad that every joint has to be able to turn from stair to stair
 constexpr std::size_t kSomePoints = 50;
@@ -218,7 +219,7 @@ class Search {
         auto next = around(first, found.chain.branch, found.chain.turn, step, kFinerRungs);
         if (!next || next->objective > found.objective) break;
         const bool gained = next->objective < found.objective * (1 - kNoGain) ||
-                            next->chain.total < found.chain.total * (1 - kNoGain);
+                            next->chain.total < found.chain.total * (1 - (mean_ ? kNoGain : kNoTieGain));
         found = std::move(*next);
         if (!gained) break;
       }
