@@ -25,8 +25,11 @@ constexpr double kStairStep =
     3 * kPi / 180;  // rad that every joint has to be able to turn from stair to stair
 constexpr std::size_t kSomePoints = 50;
 constexpr double kCoarseStep = 5 * kPi / 180;
+constexpr double kRampReach = 4 * kPi / 180;  // rad that the motion may be off the ramps
+constexpr double kLeastRampStep = kPi / 180'000;
 constexpr double kRampStep = kPi / 360;
-constexpr int kRampRungs = 8;
+constexpr double kRampShare = 0.25;  // of what the slowest joint turns between two points
+constexpr int kMostRampRungs = 60;
 
 // A motion through a stretch and what it is worth.
 struct Found {
@@ -104,6 +107,11 @@ class Search {
       sum = {JointAngles::Zero(), 0};
     }
     if (!needed) stair_ends_.clear();
+    std::vector<double> slowest;
+    for (const StepLimit& limit : limits_) slowest.push_back(limit.joint.minCoeff());
+    const auto middle = slowest.begin() + static_cast<std::ptrdiff_t>(slowest.size() / 2);
+    std::nth_element(slowest.begin(), middle, slowest.end());
+    usual_step_ = *middle;
   }
 
   // What a cost is about: the mean of the least costs of some points, continuity aside.
@@ -183,7 +191,11 @@ class Search {
   std::optional<Found> from_stairs(std::size_t first, std::size_t last) {
     const auto stairs = best_of(chain_task(whole_, stair_limits_, 0.5), first, last);
     if (!stairs) return std::nullopt;
-    auto found = around(first, stairs->chain.branch, ramps(first, stairs->chain.turn), kRampStep, kRampRungs);
+    // Finer than the joints' steps, so that the motion may be slower than the ramps where the path needs
+    // speed.
+    const double step = std::clamp(kRampShare * usual_step_, kLeastRampStep, kRampStep);
+    const int rungs = std::min(kMostRampRungs, static_cast<int>(std::ceil(kRampReach / step)));
+    auto found = around(first, stairs->chain.branch, ramps(first, stairs->chain.turn), step, rungs);
     return found ? std::optional(refined(first, std::move(*found))) : std::nullopt;
   }
 
@@ -259,8 +271,9 @@ class Search {
   RungCosts known_;  // of whole_
   std::vector<StepLimit> stair_limits_;
   std::vector<std::size_t>
-      stair_ends_;        // the points that the stairs begin with, but the first; empty: none needed
-  double mean_cost_ = 1;  // typical_cost(), of the mean objective
+      stair_ends_;         // the points that the stairs begin with, but the first; empty: none needed
+  double usual_step_ = 0;  // rad: the median of what the slowest joint turns between two points
+  double mean_cost_ = 1;   // typical_cost(), of the mean objective
   double done_ = 0;
 };
 
