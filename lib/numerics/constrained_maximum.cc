@@ -2,7 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/SVD>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -19,6 +19,7 @@ constexpr int kMostRestorations = 20;
 constexpr double kLargestRestoration = 0.1;
 // Differences: of the trust region, and at least of the step that was asked for.
 constexpr double kDifferenceShare = 0.05, kLeastDifference = 0.1;
+constexpr int kDifferenceTrials = 4;      // steps, each a tenth of the one before, until one stays inside
 constexpr double kLeastCurvature = 1e-8;  // of the largest, that the model bends downwards everywhere
 constexpr double kNearConstraint = 1.5;   // trust regions within which a constraint can matter
 constexpr double kMultiplierRounding = 1e-12, kSlackRounding = 1e-9, kLeastBound = 1e-6;
@@ -28,6 +29,21 @@ constexpr double kGood = 0.5, kPoor = 0.1, kGrowth = 2, kShrink = 0.5, kShrinkIn
 
 using Matrix = Eigen::MatrixXd;
 
+// Directions of length 1 at right angles [variables x variables]: the first `across` leave what holds the
+// point (constraints and bounds that push against it), the others lead along it.
+struct Frame {
+  Matrix axes;
+  Eigen::Index across = 0;
+};
+
+// From the gradients of what holds the point, as columns.
+Frame frame_across(const Matrix& holding) {
+  const Eigen::Index n = holding.rows();
+  if (holding.cols() == 0) return {Matrix::Identity(n, n), 0};
+  const Eigen::ColPivHouseholderQR<Matrix> factors(holding.colwise().normalized());
+  return {factors.householderQ() * Matrix::Identity(n, n), factors.rank()};
+}
+
 // First and second derivatives of the value and of each constraint.
 struct Derivatives {
   Variables gradient;
@@ -36,16 +52,15 @@ struct Derivatives {
   std::vector<Matrix> constraint_hessian;
 };
 
-std::optional<Derivatives> derivatives_at(const ConstrainedFunction& function, const Variables& x,
-                                          const ConstrainedValue& here, double h) {
+// By differences along the axes. Across a constraint the function may bend a million times as much as along
+// it, so that differences askew to it would see nothing of the rest.
+std::optional<Derivatives> differences_at(const ConstrainedFunction& function, const Variables& x,
+                                          const ConstrainedValue& here, double h, const Matrix& axes) {
   const Eigen::Index n = x.size(), m = here.constraints.size();
   Derivatives d{Variables::Zero(n), Matrix::Zero(n, n), Eigen::MatrixXd::Zero(m, n),
                 std::vector<Matrix>(m, Matrix::Zero(n, n))};
   const auto moved = [&](Eigen::Index i, double a, Eigen::Index j, double b) {
-    Variables y = x;
-    y[i] += a * h;
-    y[j] += b * h;
-    return function(y);
+    return function(x + h * (a * axes.col(i) + b * axes.col(j)));
   };
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto plus = moved(i, 1, i, 0), minus = moved(i, -1, i, 0);
@@ -68,7 +83,20 @@ std::optional<Derivatives> derivatives_at(const ConstrainedFunction& function, c
       }
     }
   }
+  d.gradient = axes * d.gradient;
+  d.hessian = axes * d.hessian * axes.transpose();
+  d.constraint_gradient *= axes.transpose();
+  for (Matrix& hessian : d.constraint_hessian) hessian = axes * hessian * axes.transpose();
   return d;
+}
+
+// The same with smaller steps where the function ends within one.
+std::optional<Derivatives> derivatives_at(const ConstrainedFunction& function, const Variables& x,
+                                          const ConstrainedValue& here, double h, const Matrix& axes) {
+  for (int i = 0; i < kDifferenceTrials; ++i, h /= 10) {
+    if (auto d = differences_at(function, x, here, h, axes)) return d;
+  }
+  return std::nullopt;
 }
 
 // The same with no positive curvature, and a little negative everywhere.
@@ -82,6 +110,19 @@ Matrix concave(const Matrix& hessian) {
   const Eigen::Matrix3d result =
       solver.eigenvectors() * curvature.asDiagonal() * solver.eigenvectors().transpose();
   return result.topLeftCorner(n, n);
+}
+
+// Only along what holds the point: across, the constraint decides how far a step goes.
+Matrix concave_along(const Matrix& hessian, const Frame& frame) {
+  if (frame.across == 0) return concave(hessian);
+  const Eigen::Index along = hessian.rows() - frame.across;
+  Matrix inside = Matrix::Zero(hessian.rows(), hessian.rows());
+  inside.diagonal().head(frame.across).setConstant(-kLeastCurvature);
+  if (along > 0) {
+    const Matrix axes = frame.axes.rightCols(along);
+    inside.bottomRightCorner(along, along) = concave(axes.transpose() * hessian * axes);
+  }
+  return frame.axes * inside * frame.axes.transpose();
 }
 
 struct QuadraticStep {
@@ -151,29 +192,68 @@ bool allowed(const ConstrainedValue& at) {
   return at.constraints.size() == 0 || at.constraints.minCoeff() >= 0;
 }
 
+// The step of least length with rows step = missing that stays inside from..to: variables that it would take
+// out stop there, and the others make up for them as far as they can.
+Variables least_step(const Eigen::MatrixXd& rows, const Eigen::VectorXd& missing, const Variables& from,
+                     const Variables& to) {
+  Variables step = Variables::Zero(from.size());
+  Eigen::MatrixXd free_rows = rows;
+  Eigen::VectorXd left = missing;
+  for (Eigen::Index round = 0; round < from.size(); ++round) {
+    const Variables wanted = free_rows.completeOrthogonalDecomposition().solve(left);
+    bool stopped = false;
+    for (Eigen::Index i = 0; i < from.size(); ++i) {
+      if (free_rows.col(i).isZero(0)) continue;
+      step[i] = std::clamp(wanted[i], from[i], to[i]);
+      if (step[i] == wanted[i]) continue;
+      stopped = true;
+      left -= step[i] * free_rows.col(i);
+      free_rows.col(i).setZero();
+    }
+    if (!stopped) break;
+  }
+  return step;
+}
+
 // Draws a point back to where every constraint holds, by steps of least length along the gradients in
-// `slopes`.
+// `slopes`. What a step has broken once is held from then on.
 std::optional<ConstrainedMaximum> drawn_back(const ConstrainedFunction& function, Variables x,
                                              const Eigen::MatrixXd& slopes, const Variables& lower,
                                              const Variables& upper) {
+  x = x.cwiseMax(lower).cwiseMin(upper);
+  std::vector<bool> held(static_cast<std::size_t>(slopes.rows()), false);
   for (int i = 0; i <= kMostCorrections; ++i) {
-    x = x.cwiseMax(lower).cwiseMin(upper);
     const auto at = function(x);
     if (!at) return std::nullopt;
     if (allowed(*at)) return ConstrainedMaximum{x, at->value};
-    std::vector<Eigen::Index> violated;
+    std::vector<Eigen::Index> rows;
     for (Eigen::Index k = 0; k < at->constraints.size(); ++k) {
-      if (at->constraints[k] < 0) violated.push_back(k);
+      if (at->constraints[k] < 0) held[k] = true;
+      if (held[k]) rows.push_back(k);
     }
-    Eigen::MatrixXd a(violated.size(), x.size());
-    Eigen::VectorXd missing(violated.size());
-    for (std::size_t k = 0; k < violated.size(); ++k) {
-      a.row(k) = slopes.row(violated[k]);
-      missing[k] = kInside - at->constraints[violated[k]];
-    }
-    x += a.completeOrthogonalDecomposition().solve(missing);
+    Eigen::VectorXd missing(rows.size());
+    for (std::size_t k = 0; k < rows.size(); ++k) missing[k] = kInside - at->constraints[rows[k]];
+    x += least_step(slopes(rows, Eigen::all), missing, lower - x, upper - x);
   }
   return std::nullopt;
+}
+
+// The end of a step, moved to where the constraints' second-order model holds: beyond a constraint the
+// function may be undefined, with no way back.
+Variables bent_end(const Variables& x, const Variables& step, const ConstrainedValue& here,
+                   const Derivatives& d, const Variables& lower, const Variables& upper) {
+  const Variables end = x + step;
+  Eigen::VectorXd missing = Eigen::VectorXd::Zero(here.constraints.size());
+  Eigen::MatrixXd slopes = d.constraint_gradient;
+  for (Eigen::Index k = 0; k < missing.size(); ++k) {
+    const double there =
+        here.constraints[k] + slopes.row(k).dot(step) + 0.5 * step.dot(d.constraint_hessian[k] * step);
+    if (there < 0)
+      missing[k] = kInside - there;
+    else
+      slopes.row(k).setZero();
+  }
+  return slopes.isZero(0) ? end : Variables(end + least_step(slopes, missing, lower - end, upper - end));
 }
 
 // From a point that is not allowed to one that is, by Gauss-Newton steps on what is violated.
@@ -183,7 +263,7 @@ std::optional<Variables> allowed_point(const ConstrainedFunction& function, Vari
     const auto at = function(x);
     if (!at) return std::nullopt;
     if (allowed(*at)) return x;
-    const auto d = derivatives_at(function, x, *at, difference);
+    const auto d = derivatives_at(function, x, *at, difference, Matrix::Identity(x.size(), x.size()));
     if (!d) return std::nullopt;
     if (const auto found = drawn_back(function, x, d->constraint_gradient, lower, upper)) return found->point;
     const Eigen::VectorXd missing = (kInside - at->constraints.array()).max(0.0);
@@ -191,12 +271,65 @@ std::optional<Variables> allowed_point(const ConstrainedFunction& function, Vari
     for (Eigen::Index k = 0; k < missing.size(); ++k) {
       if (missing[k] <= kInside) a.row(k).setZero();
     }
-    Variables step = a.completeOrthogonalDecomposition().solve(missing);
+    Variables step = least_step(a, missing, lower - x, upper - x);
     const double size = step.cwiseAbs().maxCoeff();
     if (size > kLargestRestoration) step *= kLargestRestoration / size;
     x = (x + step).cwiseMax(lower).cwiseMin(upper);
   }
   return std::nullopt;
+}
+
+// rows d >= bounds for a step d: first the constraints `near` that can matter within the trust region, then
+// the region's own box, cut by lower and upper (two rows a variable).
+struct LinearBounds {
+  std::vector<Eigen::Index> near;
+  Eigen::MatrixXd rows;
+  Eigen::VectorXd bounds;
+};
+
+LinearBounds bounds_around(const Variables& x, const ConstrainedValue& here, const Derivatives& d,
+                           const Variables& lower, const Variables& upper, double radius) {
+  const Eigen::Index n = x.size();
+  LinearBounds result;
+  for (Eigen::Index k = 0; k < here.constraints.size(); ++k) {
+    if (here.constraints[k] < kNearConstraint * radius * d.constraint_gradient.row(k).lpNorm<1>())
+      result.near.push_back(k);
+  }
+  const Eigen::Index constraints = static_cast<Eigen::Index>(result.near.size());
+  result.rows = Eigen::MatrixXd::Zero(constraints + 2 * n, n);
+  result.bounds.resize(constraints + 2 * n);
+  for (Eigen::Index k = 0; k < constraints; ++k) {
+    result.rows.row(k) = d.constraint_gradient.row(result.near[k]);
+    result.bounds[k] = kInside - here.constraints[result.near[k]];
+  }
+  for (Eigen::Index i = 0; i < n; ++i) {
+    result.rows(constraints + 2 * i, i) = 1;
+    result.bounds[constraints + 2 * i] = std::max(-radius, lower[i] - x[i]);
+    result.rows(constraints + 2 * i + 1, i) = -1;
+    result.bounds[constraints + 2 * i + 1] = -std::min(radius, upper[i] - x[i]);
+  }
+  return result;
+}
+
+// The frame of what pushes against a step to `x`: constraints, whose gradients at the step's begin turn by
+// their second derivatives, and lower and upper. The trust region's own box does not count.
+Frame frame_at(const Variables& x, const QuadraticStep& step, const Variables& moved,
+               const LinearBounds& around, const Derivatives& d, const Variables& lower,
+               const Variables& upper) {
+  const Eigen::Index n = x.size(), constraints = static_cast<Eigen::Index>(around.near.size());
+  Matrix holding(n, step.multipliers.size());
+  Eigen::Index count = 0;
+  for (Eigen::Index k = 0; k < step.multipliers.size(); ++k) {
+    if (!(step.multipliers[k] > 0)) continue;
+    const Eigen::Index i = (k - constraints) / 2;
+    if (k < constraints) {
+      const Eigen::Index c = around.near[k];
+      holding.col(count++) = d.constraint_gradient.row(c).transpose() + d.constraint_hessian[c] * moved;
+    } else if (x[i] == lower[i] || x[i] == upper[i]) {
+      holding.col(count++) = Variables::Unit(n, i);
+    }
+  }
+  return frame_across(holding.leftCols(count));
 }
 
 }  // namespace
@@ -216,53 +349,48 @@ std::optional<ConstrainedMaximum> constrained_maximum(const ConstrainedFunction&
   const Eigen::Index n = x.size(), m = here.constraints.size();
   std::optional<Derivatives> d;
   Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(m);
+  Frame frame = frame_across(Matrix(n, 0));
+  bool framed_here = false;
   for (int count = 0; count < kMostSteps && radius > kLeastRadius; ++count) {
     // On a ridge that is narrow the trust region is small, and the differences with it.
-    if (!d)
-      d = derivatives_at(function, x, here,
-                         std::clamp(kDifferenceShare * radius, kLeastDifference * difference, difference));
+    if (!d) {
+      const double h = std::clamp(kDifferenceShare * radius, kLeastDifference * difference, difference);
+      d = derivatives_at(function, x, here, h, frame.axes);
+    }
     if (!d) break;
     Matrix lagrangian = d->hessian;
     for (Eigen::Index k = 0; k < m; ++k) lagrangian += multipliers[k] * d->constraint_hessian[k];
-
-    // Rows that can matter within the trust region; then its own box, cut by lower and upper.
-    std::vector<Eigen::Index> near;
-    for (Eigen::Index k = 0; k < m; ++k) {
-      if (here.constraints[k] < kNearConstraint * radius * d->constraint_gradient.row(k).lpNorm<1>())
-        near.push_back(k);
-    }
-    const Eigen::Index constraints = near.size();
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(constraints + 2 * n, n);
-    Eigen::VectorXd bounds(constraints + 2 * n);
-    for (Eigen::Index k = 0; k < constraints; ++k) {
-      rows.row(k) = d->constraint_gradient.row(near[k]);
-      bounds[k] = kInside - here.constraints[near[k]];
-    }
-    for (Eigen::Index i = 0; i < n; ++i) {
-      rows(constraints + 2 * i, i) = 1;
-      bounds[constraints + 2 * i] = std::max(-radius, lower[i] - x[i]);
-      rows(constraints + 2 * i + 1, i) = -1;
-      bounds[constraints + 2 * i + 1] = -std::min(radius, upper[i] - x[i]);
-    }
-    const Matrix model = concave(lagrangian);
-    const auto step = QuadraticProgram(d->gradient, model, rows, bounds).solve();
+    const Matrix model = concave_along(lagrangian, frame);
+    const LinearBounds around = bounds_around(x, here, *d, lower, upper, radius);
+    const auto step = QuadraticProgram(d->gradient, model, around.rows, around.bounds).solve();
     if (!step) {
       radius *= kShrink;
       continue;
     }
     const double length = step->step.cwiseAbs().maxCoeff();
-    const auto candidate = drawn_back(function, x + step->step, d->constraint_gradient, lower, upper);
+    const auto candidate = drawn_back(function, bent_end(x, step->step, here, *d, lower, upper),
+                                      d->constraint_gradient, lower, upper);
     if (candidate && candidate->value > here.value) {
       const double promised = d->gradient.dot(step->step) + 0.5 * step->step.dot(model * step->step);
       const double kept = candidate->value - here.value;
       if (kept > kGood * promised && length > radius / 2) radius = std::min(kGrowth * radius, kLargestRadius);
       if (kept < kPoor * promised) radius *= kShrink;
+      const Variables moved = candidate->point - x;
       x = candidate->point;
       here = *function(x);
       multipliers.setZero();
-      for (Eigen::Index k = 0; k < constraints; ++k) multipliers[near[k]] = step->multipliers[k];
+      const Eigen::Index constraints = static_cast<Eigen::Index>(around.near.size());
+      for (Eigen::Index k = 0; k < constraints; ++k) multipliers[around.near[k]] = step->multipliers[k];
+      frame = frame_at(x, *step, moved, around, *d, lower, upper);
+      framed_here = false;
       d.reset();
     } else {
+      // Where the frame came from a point before, what pushes here may lie askew to it.
+      if (!framed_here) {
+        frame = frame_at(x, *step, Variables::Zero(n), around, *d, lower, upper);
+        framed_here = true;
+        d.reset();
+      }
       radius = kShrinkInVain * std::min(radius, length);
     }
   }

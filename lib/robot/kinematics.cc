@@ -1,6 +1,7 @@
 #include "robot/kinematics.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <cmath>
 
@@ -70,6 +71,11 @@ Matrix6d jacobian(const RobotPose& pose, const Eigen::Vector3d& point) {
 
 double singularity_margin(const RobotPose& pose) {
   return Eigen::JacobiSVD<Matrix6d>(jacobian(pose, pose.tool.translation())).singularValues()[kJoints - 1];
+}
+
+double squared_singularity_margin(const RobotPose& pose) {
+  const Matrix6d j = jacobian(pose, pose.tool.translation());
+  return Eigen::SelfAdjointEigenSolver<Matrix6d>(j * j.transpose(), Eigen::EigenvaluesOnly).eigenvalues()[0];
 }
 
 bool is_away_from_singularities(const RobotPose& pose, double margin) {

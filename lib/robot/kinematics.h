@@ -32,6 +32,11 @@ Eigen::Matrix<double, 3, kJoints> translational_jacobian(const RobotPose& pose, 
 /// The least singular value of the Jacobian at the tool point, lengths in m: 0 at a singular pose.
 double singularity_margin(const RobotPose& pose);
 
+/// Its square, the least eigenvalue of J J^T: a smooth function of where the tool is, also where the margin
+/// is not (0, or the stretched arm, which it leaves like a square root). To 1e-15 of the largest singular
+/// value's square.
+double squared_singularity_margin(const RobotPose& pose);
+
 /// True when the singularity margin is at least `margin`. Decided by a Cholesky factorization of J J^T -
 /// margin^2, which costs a tenth of the singular values.
 bool is_away_from_singularities(const RobotPose& pose, double margin);

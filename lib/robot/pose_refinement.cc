@@ -31,18 +31,13 @@ class Refinement {
   }
 
   std::optional<FoundPose> from(const PlanePoint& start, double radius) const {
+    if (task_.stiffness.index->has_ridge) return along_ridge(start, radius);
     auto best = optimum(start, radius, 0);
     // On a narrow curved ridge a search may stop early: one more from where it stopped goes on.
     for (int i = 0; best && i < kMostRestarts; ++i) {
       const auto again = optimum(best->at, radius, 0);
       if (!again || equal_scores(again->score, best->score)) break;
       best = again;
-    }
-    if (!best || !task_.stiffness.index->has_ridge) return best;
-    for (const double power : kRidgePowers) {
-      const auto smoothed = optimum(best->at, radius, power);
-      if (smoothed && smoothed->score > best->score) best = smoothed;
-      radius *= kRidgeRadius;
     }
     return best;
   }
@@ -53,8 +48,26 @@ class Refinement {
     double lower, upper;
   };
 
+  // First of what is smooth, from the mildest smoothing to the sharpest: the score itself has a kink on the
+  // ridge, and a search that meets it creeps.
+  std::optional<FoundPose> along_ridge(PlanePoint at, double radius) const {
+    std::optional<FoundPose> best;
+    for (const double power : kRidgePowers) {
+      const auto smoothed = optimum(at, radius, power);
+      if (!smoothed) continue;
+      at = smoothed->at;
+      if (!best || !worse(smoothed->score, best->score)) best = smoothed;
+      radius *= kRidgeRadius;
+    }
+    return best;
+  }
+
+  bool worse(double a, double b) const { return task_.stiffness.index->larger_is_better ? a < b : a > b; }
+
   // The constrained maximum of the score from `start`; with a power, of the score that smooths the ridge.
   std::optional<FoundPose> optimum(const PlanePoint& start, double radius, double power) const {
+    const auto first_pose = scanner_.evaluate(start);
+    if (!first_pose) return std::nullopt;
     const Eigen::Index n = free_.size();
     numerics::Variables first(n), lower(n), upper(n);
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -67,9 +80,9 @@ class Refinement {
       for (Eigen::Index i = 0; i < n; ++i) at.*free_[i].coordinate = x[i];
       return at;
     };
-    const auto found =
-        numerics::constrained_maximum([&](const numerics::Variables& x) { return value(point(x), power); },
-                                      first, lower, upper, radius, kDifference);
+    const auto found = numerics::constrained_maximum(
+        [&](const numerics::Variables& x) { return value(point(x), power, first_pose->score); }, first, lower,
+        upper, radius, kDifference);
     if (!found) return std::nullopt;
     PlanePoint at = point(found->point);
     if (task_.full_turn()) at.redundancy = std::remainder(at.redundancy, kTwoPi);
@@ -78,18 +91,23 @@ class Refinement {
     return FoundPose{at, evaluation->angles, evaluation->score};
   }
 
-  // Logarithm of the score, its sign such that larger is better, and the distances from what limits the pose.
-  std::optional<numerics::ConstrainedValue> value(const PlanePoint& at, double power) const {
+  // The score, or with a power its smooth stand-in, as the negative of a squared compliance (a deflection, or
+  // the inverse of a stiffness) in units of that of the score `unit`; and the distances from what limits the
+  // pose. The square of a deflection is smooth also where the deflection is 0; its logarithm has a pole
+  // there, beside which a search walks in small steps.
+  std::optional<numerics::ConstrainedValue> value(const PlanePoint& at, double power, double unit) const {
     const auto evaluation = scanner_.evaluate(at);
     if (!evaluation || !(evaluation->score > 0)) return std::nullopt;
     numerics::ConstrainedValue result;
-    double logarithm = std::log(evaluation->score);
+    double compliance =
+        task_.stiffness.index->larger_is_better ? unit / evaluation->score : evaluation->score / unit;
     if (power > 0) {
       // The power mean of the compliances in place of the largest.
       const Eigen::Vector3d compliances = principal_compliances(evaluation->compliance);
-      logarithm -= std::log((compliances / compliances[0]).cwiseMax(0.0).array().pow(power).sum()) / power;
+      compliance *=
+          std::pow((compliances / compliances[0]).cwiseMax(0.0).array().pow(power).sum(), 1 / power);
     }
-    result.value = task_.stiffness.index->larger_is_better ? logarithm : -logarithm;
+    result.value = -compliance * compliance;
     const bool away = task_.singularity_margin > 0;
     result.constraints.resize(kJoints + (away ? 1 : 0));
     for (int j = 0; j < kJoints; ++j) {
@@ -97,8 +115,10 @@ class Refinement {
       result.constraints[j] = range.margin_rad(evaluation->angles[j]) - task_.limit_margin_rad;
     }
     if (away) {
-      result.constraints[kJoints] =
-          singularity_margin(robot_pose(scanner_.robot(), evaluation->angles)) - task_.singularity_margin;
+      // The squares, as the margin itself falls like a root towards the stretched arm.
+      const double least = task_.singularity_margin;
+      const RobotPose pose = robot_pose(scanner_.robot(), evaluation->angles);
+      result.constraints[kJoints] = (squared_singularity_margin(pose) - least * least) / (2 * least);
     }
     return result;
   }

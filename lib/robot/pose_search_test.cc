@@ -182,6 +182,47 @@ TEST_CASE("random tasks: the search is never beaten by random poses") {
   }
 }
 
+TEST_CASE(
+    "random windows and points, also out of reach: an allowed pose that random poses do not beat, or none") {
+  std::mt19937_64 generator(23);
+  int found = 0, none = 0;
+  for (int n = 0; n < 60; ++n) {
+    const Robot robot = n % 3 == 0 ? with_tool_offset(kr360(), uniform(generator, 0, 0.3))
+                                   : random_robot(static_cast<unsigned>(n) % 12);
+    INFO("task " << n);
+    PoseTask task = tool_down(kr360(), 1, stiffness_indices()[n % stiffness_indices().size()].name, 2);
+    task.plane.origin = robot.base.translation() + Eigen::Vector3d(0, 0, uniform(generator, -0.5, 1.5));
+    const double size = n % 4 == 0 ? 0 : n % 4 == 1 ? 0.01 : uniform(generator, 0.1, 1);
+    const auto window = [&](double at) { return Range{at, at + size, size > 0 ? 5 : 1}; };
+    task.x = window(uniform(generator, -2, 1.5)), task.y = window(uniform(generator, -2, 1.5));
+    if (n % 5 == 0) task.redundancy = {0.3, 0.3, 1};
+    std::optional<PoseSearch> search;
+    try {
+      search = search_poses(robot, task, 5, 1);
+    } catch (const NoPose&) {
+      ++none;
+      continue;
+    }
+    ++found;
+    check_pose(robot, task, search->best);
+    for (const FoundPose& other : search->alternatives) check_pose(robot, task, other);
+    const PoseScanner scanner(robot, task);
+    const double sense = task.stiffness.index->larger_is_better ? 1 : -1;
+    for (int i = 0; i < 2000; ++i) {
+      const double turn = task.redundancy.is_point() ? task.redundancy.from : uniform(generator, -kPi, kPi);
+      const PlanePoint at{uniform(generator, task.x.from, task.x.to),
+                          uniform(generator, task.y.from, task.y.to), turn, i % kBranches};
+      const auto pose = scanner.evaluate(at);
+      if (!pose || limit_margin_rad(robot, pose->angles) < task.limit_margin_rad ||
+          !is_away_from_singularities(robot_pose(robot, pose->angles), task.singularity_margin))
+        continue;
+      CHECK(sense * search->best.score >= sense * pose->score - 1e-6 * std::abs(pose->score));
+    }
+  }
+  CHECK(found > 20);
+  CHECK(none > 5);
+}
+
 TEST_CASE("straight down at 1.6 m the plane is reached from 0.689 m in front to 2.5735 m") {
   const Robot robot = kr360();
   PoseTask task = tool_down(robot, 1.6, "axial", 0);

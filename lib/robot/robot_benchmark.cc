@@ -29,6 +29,31 @@ void print_rate(const char* what, double count, double time) {
   std::printf("  %-66s %8.3f million/s\n", what, 1e-6 * count / time);
 }
 
+// Searches over windows of 0.6 x 0.6 m with a tool off the axis, the worst of 25, against one over the whole
+// plane.
+void print_windows() {
+  const Robot offset = with_tool_offset(kr360(), 0.2);
+  for (const StiffnessIndex& index : stiffness_indices()) {
+    const PoseTask plane = tool_down(offset, 1.6, index.name, 2);
+    const double whole = least_seconds([&] { sink += search_poses(offset, plane, 5, 1).best.score; });
+    double worst = 0;
+    for (int i = 0; i < 25; ++i) {
+      PoseTask window = plane;
+      const double x = -1.8 + 0.6 * (i % 5), y = -1.8 + 0.6 * (i / 5);
+      window.x = {x, x + 0.6, 13};
+      window.y = {y, y + 0.6, 13};
+      worst = std::max(worst, seconds([&] {
+                         try {
+                           sink += search_poses(offset, window, 5, 1).best.score;
+                         } catch (const NoPose&) {
+                         }
+                       }));
+    }
+    std::printf("  search over a window, %-30s worst of 25: %.2f of the whole plane\n", index.name,
+                worst / whole);
+  }
+}
+
 #ifdef STABLECUT_HAVE_KDL
 KDL::Chain kdl_chain(const Robot& robot) {
   KDL::Chain chain;
@@ -139,6 +164,8 @@ int main() {
                    : "compliance of the joints, in the search",
                solves * kArms, time);
   }
+
+  print_windows();
 
 #ifdef STABLECUT_HAVE_KDL
   const KDL::Chain chain = kdl_chain(robot);
