@@ -45,7 +45,7 @@ check "a pose outside the limits is scored with a warning" grep -q '^best-pose: 
 check_jq "and a negative margin" scored.json '.evaluated[0].limit_margin_deg == -70'
 
 echo '{"format": "stablecut/pose-list/1", "poses": [{"joints_deg": [0, -60, -3.0714621170703906, 0, 3.0714621170703906, 0]}, {"joints_deg": [0, -60, 60, 0, 60, 0]}]}' >stretched.json
-best-pose --robot "$robot" --evaluate stretched.json k2d.json -o scored.json 2>.err
+best-pose --robot "$robot" --evaluate stretched.json --index combined k2d.json -o scored.json 2>.err
 check "a stretched arm is singular" grep -q '^best-pose: warning: stretched.json: /poses/0: a singular pose' .err
 check_jq "no number where the arm cannot yield" scored.json '.evaluated[0].score == null and .evaluated[0].rank == 2 and .evaluated[0].stiffness_n_per_m[2] == null and .evaluated[1].rank == 1'
 refused 64 '^best-pose: --force-frame: expected with --force only' "${search[@]}" --force-frame tool k2d.json
@@ -58,8 +58,16 @@ refused 64 '^best-pose: --height: x: expected a number' best-pose --robot "$robo
 refused 64 '^best-pose: --force: missing: expected a force for the index deflection' "${search[@]}" --index deflection k2d.json
 refused 64 '^best-pose: --force: 0,0,0: expected a force that is not zero' "${search[@]}" --force 0,0,0 k2d.json
 refused 64 '^best-pose: --force: 1,2: expected X,Y,Z' "${search[@]}" --force 1,2 k2d.json
+refused 64 '^best-pose: --force-cone: expected with --force only' "${search[@]}" --force-cone 20 k2d.json
+refused 64 '^best-pose: --force-cone: 91: expected an angle' "${search[@]}" --force 0,0,-1 --force-cone 91 k2d.json
+refused 64 '^best-pose: --force-turning: expected without --force-cone' "${search[@]}" --force 0,0,-1 --force-cone 9 --force-turning 9 k2d.json
+refused 64 '^best-pose: --force-turning: expected the index deflection' "${search[@]}" --force-turning 9 --index axial k2d.json
+refused 64 '^best-pose: --keep-out: 1:2,3:4: expected XFROM' "${search[@]}" --keep-out 1:2,3:4 k2d.json
+refused 64 '^best-pose: --keep-out-radius: -1: expected' "${search[@]}" --keep-out-radius=-1 k2d.json
+refused 1 '^best-pose: no reachable pose: all poses within the joint limits bring tool or links into' "${search[@]}" --keep-out-radius 9000 k2d.json
+refused 1 '^best-pose: no reachable pose: .*; --height: 2.6: taken as 2.6 mm; a plane at 2.6 m would be within reach too' best-pose --robot "$robot" --height 2.6 --x 9000:9100:2 k2d.json
 refused 64 '^best-pose: --tool-axis: 0,0,0: expected a direction' "${search[@]}" --tool-axis 0,0,0 k2d.json
-refused 64 '^best-pose: --index: soft: expected combined\|weakest' "${search[@]}" --index soft k2d.json
+refused 64 '^best-pose: --index: soft: expected weakest\|combined' "${search[@]}" --index soft k2d.json
 refused 64 '^best-pose: --x: 1:2: expected FROM:TO:COUNT' "${search[@]}" --x 1:2 k2d.json
 refused 64 '^best-pose: --redundancy: expected at most a full turn' "${search[@]}" --redundancy 0:400:5 k2d.json
 refused 64 '^best-pose: --limit-margin: -1: expected' "${search[@]}" --limit-margin=-1 k2d.json

@@ -15,6 +15,8 @@
 #include "document/kinds/pose_json.h"
 #include "document/kinds/pose_list_json.h"
 #include "document/kinds/robot_json.h"
+#include "keep_out_options.h"
+#include "load_options.h"
 #include "path_mode.h"
 #include "search_task.h"
 #include "words.h"
@@ -23,7 +25,6 @@ namespace stablecut {
 namespace {
 
 constexpr int kDefaultAlternatives = 5;
-constexpr double kLargestForce = 1e9;  // N
 
 class BestPose : public cli::Tool {
  public:
@@ -36,7 +37,6 @@ class BestPose : public cli::Tool {
 
  private:
   void setup(CLI::App& app) override {
-    const auto not_negative = [](double value) { return value >= 0; };
     const auto any = [](double) { return true; };
     cli::begin_group(app, "Input");
     add_file_option(app, "--robot", robot_path_, "Robot document: kinematics, flange, tool (required)");
@@ -60,17 +60,10 @@ class BestPose : public cli::Tool {
     cli::add_vector_option(app, "--tool-axis", where_.tool_axis,
                            "Direction of the tool axis, base frame (default: 0,0,-1)");
     cli::begin_group(app, "Stiffness");
-    cli::add_choice_option(app, "--index", index_, index_names(), index_help());
-    cli::add_vector_option(app, "--force", force_, "Force on the tool point, N");
-    cli::add_choice_option(app, "--force-frame", force_frame_, "base|tool|feed",
-                           "Frame of --force (default: base)");
+    add_load_options(app, load_);
     cli::begin_group(app, "Search");
-    cli::add_number_option(app, "--limit-margin", where_.limit_margin_deg,
-                           "Least distance to keep from every joint limit, deg (default: 2)",
-                           "a number not below 0", not_negative);
-    cli::add_number_option(app, "--singularity-margin", where_.singularity_margin,
-                           "Least singular value of the Jacobian to keep, lengths in m (default: 0.01)",
-                           "a number not below 0", not_negative);
+    add_margin_options(app, where_);
+    add_keep_out_options(app, keep_out_);
     cli::add_integer_option(app, "--alternatives", alternatives_, 0,
                             "How many other local optima to list (default: 5)");
     cli::begin_group(app, "Stiffness");
@@ -97,10 +90,11 @@ class BestPose : public cli::Tool {
     cli::refuse_if(!evaluate && !along_.given() && !where_.has_plane(),
                    "--height: missing: expected the height of the plane, mm");
     document::PoseDocument document;
-    document.task = stiffness_task();
+    document.task = stiffness_task(load_, along_.given());
     if (!along_.given()) document.plane = search_plane(where_);
     const document::Input robot_input = read_input(robot_path_, cli::InputForm::kJson);
-    const robot::Robot robot = document::robot_from_json(robot_input.document, robot_input.source);
+    robot::Robot robot = document::robot_from_json(robot_input.document, robot_input.source);
+    apply(keep_out_, robot);
     const document::Input input = read_main_input(cli::InputForm::kJson);
     const robot::JointStiffness joints =
         document::joint_stiffness_from_json(input.document, input.source, robot);
@@ -116,15 +110,14 @@ class BestPose : public cli::Tool {
     try {
       search(robot, elasticity, document);
     } catch (const robot::NoPose& none) {
-      throw NoAnswer(no_pose_text(none.obstacle(), robot));
+      const std::string metres = metres_text(where_, robot);
+      throw NoAnswer(no_pose_text(none.obstacle(), robot) + (metres.empty() ? "" : "; " + metres));
     }
   }
 
   void check_path_options() const {
     const std::string stray = along_.without_path();
     cli::refuse_if(!along_.given() && !stray.empty(), stray + ": expected with --path only");
-    cli::refuse_if(!along_.given() && force_frame_ == "feed",
-                   "--force-frame: feed: expected with --path only");
     if (!along_.given()) return;
     cli::refuse_if(!evaluate_path_.empty(), "--path: expected a path or --evaluate");
     cli::refuse_if(!map_path_.empty(), "--map: expected a search in a plane, not --path");
@@ -139,7 +132,7 @@ class BestPose : public cli::Tool {
     const document::Input input = read_input(along_.path, cli::InputForm::kByContent);
     const document::ToolPathDocument path = read_path(input, along_, where_);
     robot::PathTask task =
-        path_task(path.path, along_, where_, robot, elasticity, document.task, force_frame_ == "feed");
+        path_task(path.path, along_, where_, robot, elasticity, document.task, load_.frame == "feed");
     document::Json placement;
     if (!along_.place.empty()) {
       cli::ProgressBar bar("best-pose: places", !quiet());
@@ -160,26 +153,10 @@ class BestPose : public cli::Tool {
     if (!along_.joints_csv.empty()) write_text(along_.joints_csv, std::move(result.joints_csv));
   }
 
-  robot::StiffnessTask stiffness_task() const {
-    robot::StiffnessTask task;
-    if (along_.given()) task.index = &robot::stiffness_index(force_ ? "deflection" : "weakest");
-    if (!index_.empty()) task.index = &robot::stiffness_index(index_);
-    if (force_) {
-      task.force_n = Eigen::Vector3d(force_->data());
-      cli::refuse_if(task.force_n->isZero(0), "--force: 0,0,0: expected a force that is not zero");
-      cli::refuse_if(!(task.force_n->lpNorm<Eigen::Infinity>() < kLargestForce),
-                     "--force: expected components below 1e9 N");
-    }
-    cli::refuse_if(task.index->needs_force && !force_,
-                   std::string("--force: missing: expected a force for the index ") + task.index->name);
-    cli::refuse_if(!force_frame_.empty() && !force_, "--force-frame: expected with --force only");
-    task.force_in_tool = force_frame_ == "tool";
-    return task;
-  }
-
   void search(const robot::Robot& robot, const robot::Elasticity& elasticity,
               document::PoseDocument& document) {
-    const robot::PoseTask task = search_task(where_, document.plane.plane, robot, elasticity, document.task);
+    document.pose_task = search_task(where_, document.plane.plane, robot, elasticity, document.task);
+    const robot::PoseTask& task = document.pose_task;
     std::optional<robot::PlaneScan> scan;
     if (!map_path_.empty()) {
       cli::ProgressBar bar("best-pose: map", !quiet());
@@ -191,9 +168,11 @@ class BestPose : public cli::Tool {
           robot, task, alternatives_.value_or(kDefaultAlternatives), threads(),
           [&](double share) { bar.show(share); }, scan ? &*scan : nullptr);
     }
-    if (!document.search.redundancy_matters && task.redundancy.count > 1) {
+    const bool asked = !load_.index.empty() || where_.redundancy_deg;
+    if (asked && !document.search.redundancy_matters && task.redundancy.count > 1) {
       warn(idle_redundancy_text(robot, *task.stiffness.index));
     }
+    if (const std::string metres = metres_text(where_, robot); !metres.empty()) warn(metres);
     const robot::FoundPose& best = document.search.best;
     const auto report = [&](const robot::FoundPose& found) {
       document.reports.push_back(
@@ -201,6 +180,7 @@ class BestPose : public cli::Tool {
     };
     report(best);
     for (const robot::FoundPose& found : document.search.alternatives) report(found);
+    document.moves = robot::part_moves(robot, task, best);
     document.sweep = robot::redundancy_sweep(robot, task, best.at.x, best.at.y);
     write_document(main_output(), document::pose_to_json(document, robot));
     if (!scan) return;
@@ -230,10 +210,11 @@ class BestPose : public cli::Tool {
     write_document(main_output(), document::evaluation_to_json(document));
   }
 
-  std::string robot_path_, index_, force_frame_, map_path_, evaluate_path_;
+  std::string robot_path_, map_path_, evaluate_path_;
   SearchOptions where_;
   PathOptions along_;
-  SearchOptions::Vector force_;
+  LoadOptions load_;
+  KeepOutOptions keep_out_;
   std::optional<int> alternatives_;
   std::vector<AssumedStiffness> assumed_;
 };

@@ -248,7 +248,7 @@ def check_inverse(maker, robot, robot_path, k_path):
         turn = redundancy(frame)
         done = run("best-pose", "--robot", robot_path, "--plane-origin=" + ",".join(map(repr, point)), "--x=0:0:1", "--y=0:0:1",
                    "--tool-axis=" + ",".join(repr(frame[i][2]) for i in range(3)), f"--redundancy={turn!r}:{turn!r}:1",
-                   "--limit-margin", "0", "--singularity-margin", "0", "--quiet", k_path)
+                   "--limit-margin", "0", "--singularity-margin", "0", "--keep-out-radius", "0", "--quiet", k_path)
         found = json.loads(done.stdout)
         angles = [p["joints_deg"] for p in [found["best"], *found["alternatives"]]]
         angles += [f["joints_deg"] for f in found["families"] if "joints_deg" in f]

@@ -127,7 +127,7 @@ robot::PathTask path_task(robot::ToolPath path, const PathOptions& options, cons
   task.elasticity = elasticity;
   task.mean_objective = options.objective == "mean";
   task.limit_margin_rad = limit_margin(where);
-  task.singularity_margin = singularity_margin(where);
+  task.singularity_margin = singularity_margin(where, true);
   task.max_speed = joint_speeds(options.joint_speed, robot);
   if (options.redundancy_rate_deg_per_mm)
     task.most_turn_per_metre = radians_from_degrees(*options.redundancy_rate_deg_per_mm) * 1e3;

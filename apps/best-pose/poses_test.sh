@@ -33,12 +33,12 @@ optimum() {
   run "$@" -o best.json
   check_jq "$name" best.json "def near(a; b): (a / b - 1 | fabs) < 0.001; .best as \$b | (\$b.tcp_mm[0:2] | map(. * .) | add | sqrt) as \$radius | $filter"
 }
-down=(--force "0,0,-588.6" --limit-margin 0)
+down=(--force "0,0,-588.6" --limit-margin 0 --singularity-margin 0.01 --keep-out-radius 0)
 optimum "1.6 m, deflection: on A2's limit" 'near($b.score; 197.3) and near($radius; 689) and ($b.joints_deg[1] + 130 | fabs) < 1e-6' --height 1600 --index deflection "${down[@]}"
 optimum "1.2 m, deflection: inside" 'near($b.score; 211.1) and near($radius; 898) and near($b.joints_deg[1]; -110.8)' --height 1200 --index deflection "${down[@]}"
 optimum "1.2 m, weakest: on A3's limit" 'near($b.score; 1.543e6) and ($b.joints_deg[2] - 144 | fabs) < 1e-6' --height 1200 --index weakest "${down[@]}"
 optimum "1.2 m, axial: inside" 'near($b.score; 2.788e6) and near($radius; 898)' --height 1200 --index axial "${down[@]}"
-optimum "1.2 m, combined: near A3's limit" 'near($b.score; 6.381e6)' --height 1200 "${down[@]}"
+optimum "1.2 m, combined: near A3's limit" 'near($b.score; 6.381e6)' --height 1200 --index combined "${down[@]}"
 optimum "five degrees inside" '($b.joints_deg[1] + 125 | fabs) < 1e-6 and ($b.limit_margin_deg - 5 | fabs) < 1e-6' --height 1600 --index deflection --force 0,0,-588.6 --limit-margin 5
 optimum "a load that is not vertical" 'near($b.score; 117.5) and ($b.tcp_mm[0] - 592 | fabs) < 2 and (($b.tcp_mm[1] | fabs) - 353 | fabs) < 2' --height 1600 --index deflection --force 400,0,-400 --limit-margin 0
 check_jq "and its mirror image" best.json '[.families[].kind] | index("equal") != null and index("base-turn") == null'
@@ -51,13 +51,38 @@ optimum "a wall: a vertical plane, tool along x" '($b.tcp_mm[0] - 2000 | fabs) <
 best-pose --robot "$robot" --height 1600 --index weakest k2d.json 2>.err >weakest.json
 check "weakest: warned" grep -q '^best-pose: warning: --redundancy: the tool is coaxial with joint A6' .err
 check_jq "weakest: families" weakest.json '.redundancy_matters == false and ([.families[].kind] | contains(["base-turn", "tool-turn", "flipped-wrist"]))'
-best-pose --robot "$robot" --height 1600 k2d.json 2>.err >combined.json
+best-pose --robot "$robot" --height 1600 --index combined k2d.json 2>.err >combined.json
 check "combined: not warned" test ! -s .err
 jq '.tool.translation_mm[0] = 200' "$robot" >offset.json
 best-pose --robot offset.json --height 1600 --index weakest --x 1500:1500:1 --y 300:300:1 k2d.json 2>.err >offset-best.json
 check "offset tool: not warned" test ! -s .err
 check_jq "offset tool: the sweep shows how much it matters" offset-best.json '.best.score / ([.redundancy_sweep.score[] | select(.)] | min) > 1.2
   and .best.score >= ([.redundancy_sweep.score[] | select(.)] | max)'
+
+# What the force may be, what is kept out of, and what an answer stands on.
+run --height 1600 --force 0,0,-500 --force-cone 30 -o cone.json
+check_jq "a cone: the deflection under the worst of its forces" cone.json '.index.name == "deflection" and .best.score > .best.deflection_um and
+  ((.best.worst_force_n | map(. * .) | add | sqrt) - 500 | fabs) < 1e-9 and ((.best.worst_force_n[2] + 500 * (3 | sqrt) / 2) | . > -67 and . < 1e-9)'
+jq '{format: "stablecut/pose-list/1", poses: [{joints_deg: .best.joints_deg}]}' cone.json >cone-pose.json
+run --evaluate cone-pose.json --index deflection --force="$(jq -r '.best.worst_force_n | join(",")' cone.json)" -o worst.json
+check_jq "which is that of the worst force by itself" worst.json '.evaluated[0].deflection_um / $c[0].best.score - 1 | fabs < 1e-9' --slurpfile c cone.json
+run --height 1600 --force 0,0,-300 --force-turning 400 -o turning.json
+check_jq "a force that turns about the tool axis" turning.json '.best.worst_force_n as $f | ($f[2] + 300 | fabs) < 1e-9 and (($f[0:2] | map(. * .) | add | sqrt) - 400 | fabs) < 1e-9'
+run --height 1200 -o default.json
+check_jq "the weakest direction by default, away from singularities, outside the column" default.json '.index.name == "weakest" and .keep_out.radius_mm == 500 and .best.keep_out_margin_mm >= 0 and .best.singularity_margin >= 0.1'
+check_jq "and it stands on A3's limit margin" default.json '.best.stands_on == {interior: false, joint_limits: ["A3"], others: []} and (.best.joint_margin_deg[2] - 2 | fabs) < 1e-6'
+check_jq "six ways to move the part and six to turn it" default.json '(.part_moved | length) == 12 and ([.part_moved[] | select(.axis == "normal" and .turned_deg) | .score] | all(. / $d[0].best.score - 1 | fabs < 1e-6))' --slurpfile d default.json
+run --height 1200 --keep-out-radius 1000 -o far.json
+check_jq "a wider column pushes the tool out" far.json '(.best.tcp_mm[0:2] | map(. * .) | add | sqrt) >= 1000 - 1e-6 and .best.stands_on.others == ["keep-out"]'
+jq '.keep_out_radius_mm = 1000' "$robot" >wide.json
+best-pose --robot wide.json --quiet --height 1200 k2d.json -o wide-best.json
+check_jq "so does the document's" wide-best.json '.best.score == $f[0].best.score' --slurpfile f far.json
+run --height 1200 --x 900:1500:7 --y -300:300:7 --keep-out 0:1000,-1000:1000,1000:1400 -o box.json
+check_jq "a box" box.json '.best.tcp_mm[0] >= 1000 - 1e-6 and (.keep_out.boxes[0].most_mm[2] - 1400 | fabs) < 1e-9'
+run --height 1200 --floor 1100 -o floor.json
+check_jq "a floor below the tool" floor.json '.keep_out.floor_mm == 1100 and .best.score == $d[0].best.score' --slurpfile d default.json
+best-pose --robot "$robot" --height 1.6 k2d.json 2>.err >low.json
+check "a height that may be in metres" grep -q '^best-pose: warning: --height: 1.6: taken as 1.6 mm; a plane at 1.6 m would be within reach too$' .err
 
 # Maps.
 run --height 1600 --x=-2600:2600:27 --y=-2600:2600:27 --map map.json -o best.json
@@ -72,7 +97,7 @@ check "same best on one thread" cmp -s best.json one-best.json
 # Joints without a stiffness.
 jq '.stiffness_n_m_per_rad[0] = null | .stiffness_n_m_per_rad[5] = null' k2d.json >partial.json
 refused 1 '^best-pose: partial.json: /stiffness_n_m_per_rad/0: null: A1, A6 not identified: .*--assume A1=K --assume A6=K' best-pose --robot "$robot" --height 1600 partial.json
-best-pose --robot "$robot" --height 1600 --assume A1=6.89e6 --assume A6=6.32e5 partial.json >assumed.json
+best-pose --robot "$robot" --height 1600 --index combined --assume A1=6.89e6 --assume A6=6.32e5 partial.json >assumed.json
 check_jq "assumed stiffness gives the same pose" assumed.json '(.best.score / $b[0].best.score - 1 | fabs) < 1e-9' --slurpfile b combined.json
 jq '.stiffness_n_m_per_rad[5] = null' k2d.json >no6.json
 refused 1 'any K: the tool point lies on this joint' best-pose --robot "$robot" --height 1600 no6.json

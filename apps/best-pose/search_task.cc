@@ -11,7 +11,9 @@ namespace {
 
 constexpr double kDefaultStepMm = 50;
 constexpr double kDefaultLimitMarginDeg = 2;
-constexpr double kDefaultSingularityMargin = 0.01;
+// 6 m/min need at most 0.1 m/s / 0.1 = 1 rad/s of any joint there.
+constexpr double kDefaultSingularityMargin = 0.1;
+constexpr double kPathSingularityMargin = 0.01;
 constexpr Range kDefaultRedundancyDeg{-180, 175, 72};
 constexpr double kSquare = 1e-6;  // cosine of the angle between plane axes at right angles
 constexpr int kMostPoints = 4'000'000;
@@ -60,8 +62,31 @@ double limit_margin(const SearchOptions& options) {
   return radians_from_degrees(options.limit_margin_deg.value_or(kDefaultLimitMarginDeg));
 }
 
-double singularity_margin(const SearchOptions& options) {
-  return options.singularity_margin.value_or(kDefaultSingularityMargin);
+double singularity_margin(const SearchOptions& options, bool along_path) {
+  return options.singularity_margin.value_or(along_path ? kPathSingularityMargin : kDefaultSingularityMargin);
+}
+
+bool height_may_be_metres(const SearchOptions& options, const robot::Robot& robot) {
+  if (!options.height_mm || *options.height_mm == 0) return false;
+  robot::Plane plane;
+  plane.origin.z() = *options.height_mm;
+  try {
+    robot::plane_reach(robot, plane, direction(options.tool_axis, -Eigen::Vector3d::UnitZ(), "--tool-axis"));
+  } catch (const robot::NoPose&) {
+    return false;
+  }
+  return true;
+}
+
+void add_margin_options(CLI::App& app, SearchOptions& options) {
+  const auto not_negative = [](double value) { return value >= 0; };
+  cli::add_number_option(app, "--limit-margin", options.limit_margin_deg,
+                         "Least distance to keep from every joint limit, deg (default: 2)",
+                         "a number not below 0", not_negative);
+  cli::add_number_option(
+      app, "--singularity-margin", options.singularity_margin,
+      "Least singular value of the Jacobian to keep, lengths in m (default: 0.1; with --path 0.01)",
+      "a number not below 0", not_negative);
 }
 
 robot::PoseTask search_task(const SearchOptions& options, const robot::Plane& plane,
@@ -73,7 +98,7 @@ robot::PoseTask search_task(const SearchOptions& options, const robot::Plane& pl
   task.stiffness = stiffness;
   task.elasticity = elasticity;
   task.limit_margin_rad = limit_margin(options);
-  task.singularity_margin = singularity_margin(options);
+  task.singularity_margin = singularity_margin(options, false);
   const auto reach = robot::plane_reach(robot, task.plane, task.tool_axis);
   task.x = interval(options.x_mm, reach.x);
   task.y = interval(options.y_mm, reach.y);

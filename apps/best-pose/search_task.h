@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/range.h"
+#include "cli/tool.h"
 #include "document/kinds/pose_json.h"
 #include "robot/pose_task.h"
 
@@ -26,9 +27,15 @@ struct SearchOptions {
 /// The plane of --height, or of --plane-origin, --plane-x and --plane-y. Throws WrongUsage.
 document::PlaneDocument search_plane(const SearchOptions& options);
 
-/// What a pose has to keep: rad from every joint limit, and the least singularity margin.
+void add_margin_options(CLI::App& app, SearchOptions& options);
+
+/// What a pose has to keep: rad from every joint limit, and the least singularity margin. On a path the
+/// joints' speeds are kept by themselves, and the margin only has to keep branches apart.
 double limit_margin(const SearchOptions& options);
-double singularity_margin(const SearchOptions& options);
+double singularity_margin(const SearchOptions& options, bool along_path);
+
+/// True where a height given in mm would be within reach as one in metres too; not 0, which is both.
+bool height_may_be_metres(const SearchOptions& options, const robot::Robot& robot);
 
 /// The task of a search on that plane. Throws WrongUsage, and NoPose where the plane is out of reach.
 robot::PoseTask search_task(const SearchOptions& options, const robot::Plane& plane,

@@ -56,12 +56,21 @@ std::string no_pose_text(const robot::Obstacle& obstacle, const robot::Robot& ro
     case robot::Obstacle::Kind::kSingularity:
       return text +
              "all poses within the joint limits are nearer to a singularity than the singularity margin";
+    case robot::Obstacle::Kind::kKeepOut:
+      return text + "all poses within the joint limits bring tool or links into what they keep out of";
     case robot::Obstacle::Kind::kJointLimit:
       break;
   }
   return text + "at best joint " + robot.joints[obstacle.joint].name + " would be " +
          (margin < 0 ? degrees_text(-margin) + " outside its limits"
                      : degrees_text(margin) + " from a limit, nearer than the limit margin");
+}
+
+std::string metres_text(const SearchOptions& where, const robot::Robot& robot) {
+  if (!height_may_be_metres(where, robot)) return "";
+  const std::string height = number_text(*where.height_mm);
+  return "--height: " + height + ": taken as " + height + " mm; a plane at " + height +
+         " m would be within reach too";
 }
 
 document::DataError unsupported_robot(const robot::UnsupportedGeometry& bad, const robot::Robot& robot,

@@ -9,6 +9,7 @@
 #include "robot/joint_stiffness.h"
 #include "robot/pose_report.h"
 #include "robot/pose_task.h"
+#include "search_task.h"
 
 namespace stablecut {
 
@@ -19,6 +20,9 @@ std::string index_help();
 
 /// Why a search found no pose.
 std::string no_pose_text(const robot::Obstacle& obstacle, const robot::Robot& robot);
+
+/// That the height was perhaps meant in metres; empty where it could not be.
+std::string metres_text(const SearchOptions& where, const robot::Robot& robot);
 
 /// The error for a robot without analytic inverse kinematics: place in the robot document, value and what was
 /// expected.

@@ -48,6 +48,7 @@ TEST_CASE("directional stiffness by principal stiffnesses, eq. 14") {
     sum += by_axes * by_axes;
   }
   StiffnessTask task;
+  task.index = &stiffness_index("combined");
   CHECK(stiffness_score(compliance, pose.tool.linear(), task) == Approx(std::sqrt(sum)).epsilon(1e-12));
   task.index = &stiffness_index("weakest");
   CHECK(stiffness_score(compliance, pose.tool.linear(), task) == Approx(kappa.minCoeff()).epsilon(1e-12));

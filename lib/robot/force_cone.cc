@@ -14,7 +14,8 @@ constexpr double kSettled = 1e-15;  // relative step
 // The unit vector w [2] that maximizes w^T G w + 2 b^T w [More1983]: with the multiplier mu not below the
 // larger eigenvalue of G, (mu - G) w = b.
 Eigen::Vector2d best_of_circle(const Eigen::Matrix2d& g, const Eigen::Vector2d& b) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(g);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
+  eigen.computeDirect(g);
   const Eigen::Matrix2d axes = eigen.eigenvectors().rowwise().reverse();  // the larger eigenvalue first
   const double gap = eigen.eigenvalues()[1] - eigen.eigenvalues()[0];
   const Eigen::Vector2d beta = axes.transpose() * b;

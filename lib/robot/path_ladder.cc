@@ -139,7 +139,8 @@ void PathModel::costs(const ArmLanes& lanes, std::size_t point, const Eigen::Mat
   if (springs_.beyond_joints) add_spring_compliances(lanes, springs_, home_point_[point].data(), compliance);
   const StiffnessIndex& index = *task_.stiffness.index;
   const bool turns = task_.stiffness.force_in_tool && !task_.force_in_feed;
-  index.arm_scores(compliance, axes, turns ? Eigen::Vector3d(axes * force_[point]) : force_[point], cost);
+  const Eigen::Vector3d force = turns ? Eigen::Vector3d(axes * force_[point]) : force_[point];
+  index.arm_scores(compliance, axes, task_.stiffness.load(force), cost);
   for (int arm = 0; arm < kArms; ++arm) cost[arm] = path_cost(index, cost[arm]);
 }
 

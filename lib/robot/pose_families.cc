@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "robot/keep_out.h"
 
 namespace stablecut::robot {
 namespace {
@@ -25,7 +26,9 @@ std::optional<FoundPose> with_place_of_tool(const PoseScanner& scanner, FoundPos
   const PoseTask& task = scanner.task();
   if (limit_margin_rad(scanner.robot(), pose.angles) < task.limit_margin_rad - kBoundRounding)
     return std::nullopt;
-  const Eigen::Isometry3d tool = robot_pose(scanner.robot(), pose.angles).tool;
+  const RobotPose there = robot_pose(scanner.robot(), pose.angles);
+  if (keep_out_margin_m(scanner.robot(), there) < -kBoundRounding) return std::nullopt;
+  const Eigen::Isometry3d& tool = there.tool;
   const Eigen::Vector3d offset = tool.translation() - task.plane.origin;
   const auto rounded = [](double value) { return std::abs(value) < kZeroCoordinate ? 0 : value; };
   pose.at.x = rounded(offset.dot(task.plane.x_axis));
@@ -135,6 +138,8 @@ std::optional<FoundPose> flipped_wrist(const PoseScanner& scanner, const FoundPo
   if (!evaluation) return std::nullopt;
   other.angles = evaluation->angles;
   if (limit_margin_rad(scanner.robot(), other.angles) < scanner.task().limit_margin_rad) return std::nullopt;
+  const RobotPose pose = robot_pose(scanner.robot(), other.angles);
+  if (keep_out_margin_m(scanner.robot(), pose) < -kBoundRounding) return std::nullopt;
   return other;
 }
 

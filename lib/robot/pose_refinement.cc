@@ -5,6 +5,7 @@
 
 #include "base/units.h"
 #include "numerics/constrained_maximum.h"
+#include "robot/keep_out.h"
 
 namespace stablecut::robot {
 namespace {
@@ -108,18 +109,18 @@ class Refinement {
           std::pow((compliances / compliances[0]).cwiseMax(0.0).array().pow(power).sum(), 1 / power);
     }
     result.value = -compliance * compliance;
-    const bool away = task_.singularity_margin > 0;
-    result.constraints.resize(kJoints + (away ? 1 : 0));
+    const Robot& robot = scanner_.robot();
+    const RobotPose pose = robot_pose(robot, evaluation->angles);
+    const double least = task_.singularity_margin, keep_out = keep_out_margin_m(robot, pose);
+    const bool away = least > 0, out = std::isfinite(keep_out);
+    result.constraints.resize(kJoints + away + out);
     for (int j = 0; j < kJoints; ++j) {
-      const AngleRange range = scanner_.robot().range(j, evaluation->angles);
+      const AngleRange range = robot.range(j, evaluation->angles);
       result.constraints[j] = range.margin_rad(evaluation->angles[j]) - task_.limit_margin_rad;
     }
-    if (away) {
-      // The squares, as the margin itself falls like a root towards the stretched arm.
-      const double least = task_.singularity_margin;
-      const RobotPose pose = robot_pose(scanner_.robot(), evaluation->angles);
-      result.constraints[kJoints] = (squared_singularity_margin(pose) - least * least) / (2 * least);
-    }
+    // The squares, as the margin itself falls like a root towards the stretched arm.
+    if (away) result.constraints[kJoints] = (squared_singularity_margin(pose) - least * least) / (2 * least);
+    if (out) result.constraints[kJoints + away] = keep_out;
     return result;
   }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "numerics/distributions.h"
+#include "robot/keep_out.h"
 
 namespace stablecut::robot {
 namespace {
@@ -85,7 +86,11 @@ PoseReport report_pose(const Robot& robot, const JointAngles& angles, const Stif
     }
   }
   report.limit_margin_rad = limit_margin_rad(robot, angles);
+  for (int j = 0; j < kJoints; ++j) report.joint_margin_rad[j] = robot.range(j, angles).margin_rad(angles[j]);
   report.singularity_margin = singularity_margin(pose);
+  report.keep_out_margin_m = keep_out_margin_m(robot, pose);
+  if (task.force_n && task.load(*task.force_n).varies())
+    report.worst_force_n = worst_force(task, compliance, axes);
   report.score_gradient = gradient(pose, elasticity.springs, compliance,
                                    [&](const Eigen::Matrix3d& c) { return stiffness_score(c, axes, task); });
   if (errors.known() && std::isfinite(report.score)) {

@@ -20,7 +20,11 @@ struct PoseReport {
   Eigen::Vector3d directional_stiffness;
   std::optional<Eigen::Vector3d> deflection_m;  ///< under the force, base frame
   double limit_margin_rad = 0;
+  JointAngles joint_margin_rad;   ///< of each joint
   double singularity_margin = 0;  ///< singularity_margin() of the pose
+  double keep_out_margin_m = 0;   ///< keep_out_margin_m() of the pose
+  /// With which the deflection is largest, where the task's force varies; base frame, N.
+  std::optional<Eigen::Vector3d> worst_force_n;
   /// Standard deviations of what a measurement will show: by linear propagation of the compliances'
   /// covariance [JCGM2008, 5.2], and the discrepancy. Absent where neither is known.
   std::optional<double> score_std, deflection_std_m;

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "robot/keep_out.h"
 
 namespace stablecut::robot {
 namespace {
@@ -69,7 +70,7 @@ bool PoseScanner::any_keeps_limits(const double margin[kBranches]) const {
 void PoseScanner::arm_merits(const Sample& sample, const double compliance[6][kArms],
                              double merit[kArms]) const {
   const StiffnessIndex& index = *task_.stiffness.index;
-  index.arm_scores(compliance, sample.axes, sample.force, merit);
+  index.arm_scores(compliance, sample.axes, task_.stiffness.load(sample.force), merit);
   if (index.larger_is_better) return;
   for (int arm = 0; arm < kArms; ++arm) merit[arm] = -merit[arm];
 }
@@ -157,11 +158,12 @@ ScanBest PoseScanner::place_of(const Candidate& candidate, double x, double y) c
   return {candidate.merit, {x, y, samples_[candidate.sample].turn, candidate.branch}};
 }
 
-bool PoseScanner::away_from_singularities(const PlanePoint& at) const {
-  if (!(task_.singularity_margin > 0)) return true;
+// From singularities and from what is to be kept out of.
+bool PoseScanner::keeps_distance(const PlanePoint& at) const {
   const auto evaluation = evaluate(at);
-  return evaluation &&
-         is_away_from_singularities(robot_pose(robot_, evaluation->angles), task_.singularity_margin);
+  if (!evaluation) return false;
+  const RobotPose pose = robot_pose(robot_, evaluation->angles);
+  return is_away_from_singularities(pose, task_.singularity_margin) && keep_out_margin_m(robot_, pose) >= 0;
 }
 
 PointScan PoseScanner::scan(double x, double y) const {
@@ -175,16 +177,17 @@ PointScan PoseScanner::scan(double x, double y) const {
   for (std::size_t arm = 0; arm < kArms; ++arm) {
     if (!best[arm]) continue;
     const ScanBest place = place_of(*best[arm], x, y);
-    if (away_from_singularities(place.at)) {
+    if (keeps_distance(place.at)) {
       result.arms[arm] = place;
-    } else if (!coaxial_) {  // else joint 6 does not change the singular values either
+    } else if (!coaxial_ || !robot_.joints[5].capsules.empty()) {
+      // Of a coaxial tool joint 6 changes neither the singular values nor where the tool is.
       result.arms[arm] = next_best(x, y, static_cast<int>(arm));
     }
   }
   return result;
 }
 
-// The best of an arm that is away from singularities, where the best of all is not.
+// The best of an arm that keeps its distance, where the best of all does not.
 std::optional<ScanBest> PoseScanner::next_best(double x, double y, int arm) const {
   std::vector<Candidate> candidates;
   PointScan ignored;
@@ -195,7 +198,7 @@ std::optional<ScanBest> PoseScanner::next_best(double x, double y, int arm) cons
                    [&](const Candidate& a, const Candidate& b) { return better(a, b); });
   for (const Candidate& candidate : candidates) {
     const ScanBest place = place_of(candidate, x, y);
-    if (away_from_singularities(place.at)) return place;
+    if (keeps_distance(place.at)) return place;
   }
   return std::nullopt;
 }

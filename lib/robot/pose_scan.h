@@ -85,7 +85,7 @@ class PoseScanner {
   bool any_keeps_limits(const double margin[kBranches]) const;
   bool better(const Candidate& a, const Candidate& b) const;
   ScanBest place_of(const Candidate& candidate, double x, double y) const;
-  bool away_from_singularities(const PlanePoint& at) const;
+  bool keeps_distance(const PlanePoint& at) const;
   std::optional<ScanBest> next_best(double x, double y, int arm) const;
 
   const Robot& robot_;

@@ -68,7 +68,9 @@ Obstacle obstacle_of(const PoseScanner& scanner, const PlaneScan& scan) {
     if (left < obstacle.margin_rad) obstacle = {Obstacle::Kind::kJointLimit, j, left};
   }
   if (obstacle.margin_rad < scanner.task().limit_margin_rad) return obstacle;
-  return {Obstacle::Kind::kSingularity};
+  const RobotPose pose = robot_pose(scanner.robot(), evaluation->angles);
+  const bool away = is_away_from_singularities(pose, scanner.task().singularity_margin);
+  return {away ? Obstacle::Kind::kKeepOut : Obstacle::Kind::kSingularity};
 }
 
 // Of a pose's symmetric equals the one that is turned least: of a wrist and its flip the one whose joint 4 is

@@ -56,6 +56,7 @@ struct Obstacle {
     kOutOfReach,   ///< no point of the plane is within the arm's reach with this tool axis
     kJointLimit,   ///< every pose violates a joint limit or its margin
     kSingularity,  ///< every pose that the limits allow is nearer to a singularity than the margin
+    kKeepOut,      ///< and what is not brings tool or links into what they keep out of
   };
   Kind kind = Kind::kOutOfReach;
   /// Of kJointLimit: where the limits are missed by the least, the joint (index) that misses them and its

@@ -42,6 +42,11 @@ struct Capsule {
   double radius_m = 0;
 };
 
+/// A box with edges along the axes of the base frame, m.
+struct Box {
+  Eigen::Vector3d least_m, most_m;
+};
+
 struct LinkMass {
   double mass_kg = 0;
   Eigen::Vector3d center_m;  ///< centre of mass
@@ -62,7 +67,7 @@ struct Joint {
   double coupled_max_rad = std::numeric_limits<double>::infinity();
   std::optional<double> max_speed;  ///< rad/s, of the controller angle
   std::optional<LinkMass> mass;     ///< of the link
-  std::vector<Capsule> capsules;    ///< that enclose the link; read and kept, not used by any search so far
+  std::vector<Capsule> capsules;    ///< that enclose the link, for keep_out_margin_m()
 
   /// Of link i-1: the turn from axis i-1 to axis i about x of frame i-1. A sine or cosine within 1e-14 of a
   /// whole number is taken as that number.
@@ -85,8 +90,11 @@ struct Robot {
   /// In the flange frame; its origin is the tool point and its z axis the tool axis.
   Eigen::Isometry3d tool = Eigen::Isometry3d::Identity();
 
-  std::vector<Capsule> base_capsules;  ///< of what does not move, frame 0; not used so far, as those of links
-  double keep_out_radius_m = 0;  ///< of a cylinder round axis 1 that the tool keeps out of on paths; 0: none
+  std::vector<Capsule> base_capsules;  ///< of what does not move, frame 0
+  // What keep_out_margin_m() looks at.
+  double keep_out_radius_m = 0;     ///< of a cylinder round axis 1, without ends; 0: none
+  std::optional<double> floor_m;    ///< z in the base frame below which nothing may be
+  std::vector<Box> keep_out_boxes;  ///< base frame
 
   Eigen::Isometry3d tool_in_frame6() const { return flange * tool; }
   /// By how much joint j turns: its controller angle, with what a coupling adds to it.

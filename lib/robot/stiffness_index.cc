@@ -4,13 +4,14 @@
 #include <string>
 
 #include "base/error.h"
+#include "robot/force_cone.h"
 
 namespace stablecut::robot {
 namespace {
 
 using Compliance = const Eigen::Matrix3d&;
 using Tool = const Eigen::Matrix3d&;
-using Force = const Eigen::Vector3d&;
+using Force = const ForceLoad&;
 using ArmCompliances = const double (*)[kArms];
 
 // |C f|^2 of one arm.
@@ -52,27 +53,32 @@ void axial_of_arms(ArmCompliances c, Tool tool, Force, double score[kArms]) {
   }
 }
 
-// The length of the displacement under the force.
-double deflection(Compliance compliance, Tool, Force force) { return (compliance * force).norm(); }
-void deflection_of_arms(ArmCompliances c, Tool, Force force, double score[kArms]) {
-  for (int arm = 0; arm < kArms; ++arm) score[arm] = std::sqrt(squared_displacement(c, force, arm));
+LargestDeflection largest_deflection(Compliance compliance, Tool tool, Force load) {
+  if (load.cone_rad > 0) return largest_over_cone(compliance, load.force_n, load.cone_rad);
+  if (load.turning_n > 0) return largest_over_turn(compliance, load.force_n, tool.col(2), load.turning_n);
+  return {(compliance * load.force_n).norm(), load.force_n};
+}
+
+// The length of the displacement under the force, or the largest under those that it may be.
+double deflection(Compliance compliance, Tool tool, Force load) {
+  return largest_deflection(compliance, tool, load).length;
+}
+void deflection_of_arms(ArmCompliances c, Tool tool, Force load, double score[kArms]) {
+  for (int arm = 0; arm < kArms; ++arm) {
+    if (!load.varies()) {
+      score[arm] = std::sqrt(squared_displacement(c, load.force_n, arm));
+      continue;
+    }
+    Eigen::Matrix3d one;
+    one << c[0][arm], c[1][arm], c[2][arm], c[1][arm], c[3][arm], c[4][arm], c[2][arm], c[4][arm], c[5][arm];
+    score[arm] = largest_deflection(one, tool, load).length;
+  }
 }
 
 }  // namespace
 
 std::span<const StiffnessIndex> stiffness_indices() {
   static constexpr StiffnessIndex indices[] = {
-      {.name = "combined",
-       .meaning = "sqrt(Kx^2 + Ky^2 + Kz^2) along the tool's axes, N/m",
-       .unit = "N/m",
-       .units_per_score = 1,
-       .larger_is_better = true,
-       .needs_force = false,
-       .feels_tool_turn = true,
-       .along = {true, true, true},
-       .has_ridge = false,
-       .score = combined,
-       .arm_scores = combined_of_arms},
       {.name = "weakest",
        .meaning = "the least principal stiffness, N/m",
        .unit = "N/m",
@@ -84,6 +90,17 @@ std::span<const StiffnessIndex> stiffness_indices() {
        .has_ridge = true,
        .score = weakest,
        .arm_scores = weakest_of_arms},
+      {.name = "combined",
+       .meaning = "sqrt(Kx^2 + Ky^2 + Kz^2) along the tool's axes, N/m, not bounded near singular poses",
+       .unit = "N/m",
+       .units_per_score = 1,
+       .larger_is_better = true,
+       .needs_force = false,
+       .feels_tool_turn = true,
+       .along = {true, true, true},
+       .has_ridge = false,
+       .score = combined,
+       .arm_scores = combined_of_arms},
       {.name = "axial",
        .meaning = "the stiffness along the tool axis, N/m",
        .unit = "N/m",
@@ -96,7 +113,7 @@ std::span<const StiffnessIndex> stiffness_indices() {
        .score = axial,
        .arm_scores = axial_of_arms},
       {.name = "deflection",
-       .meaning = "the deflection under the force, um, least",
+       .meaning = "the deflection under the force, or the largest of those that it may be, um, least",
        .unit = "um",
        .units_per_score = 1e6,
        .larger_is_better = false,
@@ -128,11 +145,17 @@ Eigen::Vector3d force_in_base(const StiffnessTask& task, const Eigen::Matrix3d& 
   return task.force_in_tool ? Eigen::Vector3d(tool_rotation * *task.force_n) : *task.force_n;
 }
 
+Eigen::Vector3d worst_force(const StiffnessTask& task, const Eigen::Matrix3d& compliance,
+                            const Eigen::Matrix3d& tool_rotation) {
+  const ForceLoad load = task.load(force_in_base(task, tool_rotation));
+  return largest_deflection(compliance, tool_rotation, load).force_n;
+}
+
 double stiffness_score(const Eigen::Matrix3d& compliance, const Eigen::Matrix3d& tool_rotation,
                        const StiffnessTask& task) {
-  const Eigen::Vector3d force =
-      task.index->needs_force ? force_in_base(task, tool_rotation) : Eigen::Vector3d(Eigen::Vector3d::Zero());
-  return task.index->score(compliance, tool_rotation, force);
+  const ForceLoad load = task.index->needs_force ? task.load(force_in_base(task, tool_rotation))
+                                                 : ForceLoad(Eigen::Vector3d::Zero());
+  return task.index->score(compliance, tool_rotation, load);
 }
 
 }  // namespace stablecut::robot

@@ -12,6 +12,19 @@
 
 namespace stablecut::robot {
 
+/// The force on the tool point, and how it may differ from what is known.
+struct ForceLoad {
+  Eigen::Vector3d force_n;
+  double cone_rad = 0;   ///< it may point anywhere within this angle (at most pi/2) of force_n
+  double turning_n = 0;  ///< beside it a force of this size turns about the tool axis, square to it
+
+  template <typename Derived>
+  ForceLoad(const Eigen::MatrixBase<Derived>& force) : force_n(force) {}
+  ForceLoad(const Eigen::Vector3d& force, double cone, double turning)
+      : force_n(force), cone_rad(cone), turning_n(turning) {}
+  bool varies() const { return cone_rad > 0 || turning_n > 0; }
+};
+
 /// One way to judge how stiff a pose is, from the compliance C_tt of the tool point, the directions of the
 /// tool's axes and perhaps a force. A score is above 0, in SI units.
 struct StiffnessIndex {
@@ -32,12 +45,11 @@ struct StiffnessIndex {
   bool has_ridge;
 
   /// The score: `compliance` m/N, `tool` with the tool's axes as columns and `force` N, all in one frame.
-  double (*score)(const Eigen::Matrix3d& compliance, const Eigen::Matrix3d& tool,
-                  const Eigen::Vector3d& force);
+  double (*score)(const Eigen::Matrix3d& compliance, const Eigen::Matrix3d& tool, const ForceLoad& load);
   /// The same for four arms from the entries of their compliances, as arm_compliances() gives them: what the
   /// scan calls, millions of times.
-  void (*arm_scores)(const double compliance[6][kArms], const Eigen::Matrix3d& tool,
-                     const Eigen::Vector3d& force, double score[kArms]);
+  void (*arm_scores)(const double compliance[6][kArms], const Eigen::Matrix3d& tool, const ForceLoad& load,
+                     double score[kArms]);
 };
 
 /// All of them; the first is the default.
@@ -51,14 +63,23 @@ struct StiffnessTask {
   const StiffnessIndex* index = &stiffness_indices().front();
   std::optional<Eigen::Vector3d> force_n;  ///< on the tool point
   bool force_in_tool = false;              ///< the force is given in the tool's frame, else in the base's
+  double force_cone_rad = 0;               ///< ForceLoad::cone_rad; one of the two at most
+  double force_turning_n = 0;              ///< ForceLoad::turning_n
 
   /// False when the score cannot change as the tool turns about its own axis while the compliance stays.
   bool feels_tool_turn() const;
+  /// The load of a force in whatever frame.
+  ForceLoad load(const Eigen::Vector3d& force) const { return {force, force_cone_rad, force_turning_n}; }
 };
 
 /// The task's force in the base frame, N, for a tool of that orientation (its axes in the base frame). Throws
 /// InvalidArgument when the task has none.
 Eigen::Vector3d force_in_base(const StiffnessTask& task, const Eigen::Matrix3d& tool_rotation);
+
+/// The force with which the deflection is largest, in the base frame, N: that of force_in_base() where the
+/// force does not vary.
+Eigen::Vector3d worst_force(const StiffnessTask& task, const Eigen::Matrix3d& compliance,
+                            const Eigen::Matrix3d& tool_rotation);
 
 /// The score by the task's index, in SI units; `compliance` in the base frame, m/N. Throws InvalidArgument
 /// when the index needs a force and the task has none.

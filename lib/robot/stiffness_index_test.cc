@@ -118,7 +118,9 @@ TEST_CASE("every index tells truly whether it feels the tool's turn, the tool's 
 
 TEST_CASE("a task feels the tool's turn where its index does, or its force turns with the tool") {
   StiffnessTask task;
-  CHECK(std::string(task.index->name) == "combined");
+  CHECK(std::string(task.index->name) == "weakest");
+  CHECK_FALSE(task.feels_tool_turn());
+  task.index = &stiffness_index("combined");
   CHECK(task.feels_tool_turn());
   task.index = &stiffness_index("deflection");
   task.force_n = Eigen::Vector3d(100, 0, 500);
@@ -131,4 +133,36 @@ TEST_CASE("a task feels the tool's turn where its index does, or its force turns
   task.index = &stiffness_index("weakest");
   task.force_n = Eigen::Vector3d(100, 0, 500);
   CHECK_FALSE(task.feels_tool_turn());
+}
+
+TEST_CASE("the deflection under a load that varies is the largest, and not below that of any of its forces") {
+  std::mt19937_64 generator(73);
+  StiffnessTask task;
+  task.index = &stiffness_index("deflection");
+  for (int n = 0; n < 100; ++n) {
+    const Eigen::Matrix3d c = random_compliance(generator), tool = random_rotation(generator);
+    task.force_n = 300 * random_vector(generator);
+    task.force_cone_rad = n % 2 ? 0.4 : 0;
+    task.force_turning_n = n % 2 ? 0 : 200;
+    task.force_in_tool = n % 3 == 0;
+    const double score = stiffness_score(c, tool, task);
+    const Eigen::Vector3d worst = worst_force(task, c, tool), mean = force_in_base(task, tool);
+    CHECK((c * worst).norm() == Approx(score).epsilon(1e-12));
+    for (int i = 0; i < 200; ++i) {
+      const double angle = 0.0314159 * i;
+      const Eigen::Vector3d across = n % 2 ? mean.unitOrthogonal() : Eigen::Vector3d(tool.col(0));
+      const Eigen::Vector3d axis = n % 2 ? mean.normalized() : Eigen::Vector3d(tool.col(2));
+      const Eigen::Vector3d side = Eigen::AngleAxisd(angle, axis) * across;
+      const Eigen::Vector3d force =
+          n % 2 ? Eigen::Vector3d(std::cos(0.4) * mean + std::sin(0.4) * mean.norm() * side)
+                : Eigen::Vector3d(mean + 200 * side);
+      CHECK((c * force).norm() <= score * (1 + 1e-12));
+    }
+    // Four arms side by side.
+    double entries[6][kArms], scores[kArms];
+    const double upper[6] = {c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2)};
+    for (int e = 0; e < 6; ++e) std::fill_n(entries[e], kArms, upper[e]);
+    task.index->arm_scores(entries, tool, task.load(mean), scores);
+    CHECK(scores[3] == Approx(score).epsilon(1e-12));
+  }
 }

@@ -37,9 +37,42 @@ Json to_json(const robot::PoseReport& report, const robot::StiffnessTask& task) 
     if (report.deflection_std_m) pose["deflection_std_um"] = *report.deflection_std_m * 1e6;
     pose["displacement_um"] = to_json(*report.deflection_m * 1e6);
   }
+  if (report.worst_force_n) pose["worst_force_n"] = to_json(*report.worst_force_n);
   pose["limit_margin_deg"] = document_degrees(report.limit_margin_rad);
+  pose["joint_margin_deg"] = joint_angles_to_json(report.joint_margin_rad);
   pose["singularity_margin"] = report.singularity_margin;
+  if (std::isfinite(report.keep_out_margin_m))
+    pose["keep_out_margin_mm"] = mm_from_metres(report.keep_out_margin_m);
   return pose;
+}
+
+// What holds a pose: names of joints for their limits.
+Json to_json(const robot::Standing& standing, const robot::Robot& robot) {
+  Json joints = Json::array(), others = Json::array();
+  for (const int j : standing.joints) joints.push_back(robot.joints[j].name);
+  for (const auto& [holds, name] :
+       {std::pair{standing.singularity, "singularity-margin"}, std::pair{standing.keep_out, "keep-out"},
+        std::pair{standing.x, "x"}, std::pair{standing.y, "y"},
+        std::pair{standing.redundancy, "redundancy"}}) {
+    if (holds) others.push_back(name);
+  }
+  const bool interior = joints.empty() && others.empty();
+  return {{"interior", interior}, {"joint_limits", std::move(joints)}, {"others", std::move(others)}};
+}
+
+Json to_json(const std::vector<robot::PartMove>& moves, const robot::StiffnessTask& task) {
+  Json list = Json::array();
+  for (const robot::PartMove& move : moves) {
+    const char* const axes[] = {"x", "y", "normal"};
+    Json one = {{"axis", axes[move.axis]}};
+    if (move.turn)
+      one["turned_deg"] = document_degrees(move.amount);
+    else
+      one["moved_mm"] = mm_from_metres(move.amount);
+    one["score"] = move.score ? Json(*move.score * task.index->units_per_score) : Json(nullptr);
+    list.push_back(std::move(one));
+  }
+  return list;
 }
 
 Json family_to_json(const robot::PoseFamily& family, const robot::Robot& robot) {
@@ -91,6 +124,15 @@ Json samples_of(const Range& range) {
 
 }  // namespace
 
+Json keep_out_to_json(const robot::Robot& robot) {
+  Json boxes = Json::array();
+  for (const robot::Box& box : robot.keep_out_boxes)
+    boxes.push_back({{"least_mm", to_json(box.least_m * 1e3)}, {"most_mm", to_json(box.most_m * 1e3)}});
+  Json result = {{"radius_mm", mm_from_metres(robot.keep_out_radius_m)}, {"boxes", std::move(boxes)}};
+  result["floor_mm"] = robot.floor_m ? Json(mm_from_metres(*robot.floor_m)) : Json(nullptr);
+  return result;
+}
+
 Json pose_report_to_json(const robot::PoseReport& report, const robot::StiffnessTask& task) {
   return to_json(report, task);
 }
@@ -101,6 +143,7 @@ Json pose_to_json(const PoseDocument& document, const robot::Robot& robot) {
   const auto one = [&](const robot::PoseReport& report, const robot::FoundPose& found) {
     Json pose = to_json(report, document.task);
     pose["branch"] = found.at.branch;
+    pose["stands_on"] = to_json(robot::standing_of(document.pose_task, report, found.at), robot);
     return pose;
   };
   result["best"] = one(document.reports.front(), document.search.best);
@@ -117,6 +160,8 @@ Json pose_to_json(const PoseDocument& document, const robot::Robot& robot) {
   for (const robot::PoseFamily& family : document.search.families)
     families.push_back(family_to_json(family, robot));
   result["families"] = std::move(families);
+  result["keep_out"] = keep_out_to_json(robot);
+  result["part_moved"] = to_json(document.moves, document.task);
   result["redundancy_matters"] = document.search.redundancy_matters;
   Json angles = Json::array(), scores = Json::array();
   for (std::size_t i = 0; i < document.sweep.redundancy_rad.size(); ++i) {

@@ -8,6 +8,7 @@
 #include "document/text/json_text.h"
 #include "robot/pose_report.h"
 #include "robot/pose_search.h"
+#include "robot/pose_standing.h"
 
 namespace stablecut::document {
 
@@ -22,13 +23,18 @@ struct PoseDocument {
   robot::ElasticityErrors errors;
   // A search.
   PlaneDocument plane;
+  robot::PoseTask pose_task;
   robot::PoseSearch search;
   std::vector<robot::PoseReport> reports;  ///< best, then the alternatives
   robot::RedundancySweep sweep;            ///< at the best point
+  std::vector<robot::PartMove> moves;      ///< of the best pose
   // An evaluation.
   std::vector<robot::PoseReport> evaluated;
   std::vector<std::string> names;  ///< of the evaluated poses; empty where one has none
 };
+
+/// What tool and links keep out of, as a search took it.
+Json keep_out_to_json(const robot::Robot& robot);
 
 /// One pose, as in every document of poses.
 Json pose_report_to_json(const robot::PoseReport& report, const robot::StiffnessTask& task);
