@@ -12,10 +12,10 @@ namespace {
 
 constexpr double kEqualScores = 1e-7;  // relative
 constexpr int kMostRestarts = 10;
-constexpr double kRidgePowers[] = {30, 300, 3000};  // of the power means that stand for a ridge
-constexpr double kRidgeRadius = 0.3;                // of the radius of the power before
-constexpr double kDifference = 1e-4;                // m and rad, of the derivatives
-constexpr double kUnboundedTurn = 100;              // rad: bound of a redundancy that is the full turn
+constexpr double kRidgePowers[] = {30, 300, 3000, 30000};  // of the power means that stand for a ridge
+constexpr double kRidgeRadius = 0.3;                       // of the radius of the power before
+constexpr double kDifference = 1e-4;                       // m and rad, of the derivatives
+constexpr double kUnboundedTurn = 100;                     // rad: bound of a redundancy that is the full turn
 
 // Refinement over those of x, y and redundancy that are free and matter.
 class Refinement {
@@ -32,7 +32,7 @@ class Refinement {
   }
 
   std::optional<FoundPose> from(const PlanePoint& start, double radius) const {
-    if (task_.stiffness.index->has_ridge) return along_ridge(start, radius);
+    if (task_.stiffness.has_kink()) return along_ridge(start, radius);
     auto best = optimum(start, radius, 0);
     // On a narrow curved ridge a search may stop early: one more from where it stopped goes on.
     for (int i = 0; best && i < kMostRestarts; ++i) {
@@ -100,14 +100,10 @@ class Refinement {
     const auto evaluation = scanner_.evaluate(at);
     if (!evaluation || !(evaluation->score > 0)) return std::nullopt;
     numerics::ConstrainedValue result;
-    double compliance =
-        task_.stiffness.index->larger_is_better ? unit / evaluation->score : evaluation->score / unit;
-    if (power > 0) {
-      // The power mean of the compliances in place of the largest.
-      const Eigen::Vector3d compliances = principal_compliances(evaluation->compliance);
-      compliance *=
-          std::pow((compliances / compliances[0]).cwiseMax(0.0).array().pow(power).sum(), 1 / power);
-    }
+    const Eigen::Matrix3d axes = evaluation->tool.linear();
+    const double score =
+        power > 0 ? smooth_score(evaluation->compliance, axes, task_.stiffness, power) : evaluation->score;
+    const double compliance = task_.stiffness.index->larger_is_better ? unit / score : score / unit;
     result.value = -compliance * compliance;
     const Robot& robot = scanner_.robot();
     const RobotPose pose = robot_pose(robot, evaluation->angles);

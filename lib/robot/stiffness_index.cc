@@ -54,8 +54,9 @@ void axial_of_arms(ArmCompliances c, Tool tool, Force, double score[kArms]) {
 }
 
 LargestDeflection largest_deflection(Compliance compliance, Tool tool, Force load) {
-  if (load.cone_rad > 0) return largest_over_cone(compliance, load.force_n, load.cone_rad);
-  if (load.turning_n > 0) return largest_over_turn(compliance, load.force_n, tool.col(2), load.turning_n);
+  if (load.cone_rad > 0) return largest_over_cone(compliance, load.force_n, load.cone_rad, load.smoothing);
+  if (load.turning_n > 0)
+    return largest_over_turn(compliance, load.force_n, tool.col(2), load.turning_n, load.smoothing);
   return {(compliance * load.force_n).norm(), load.force_n};
 }
 
@@ -155,6 +156,19 @@ double stiffness_score(const Eigen::Matrix3d& compliance, const Eigen::Matrix3d&
                        const StiffnessTask& task) {
   const ForceLoad load = task.index->needs_force ? task.load(force_in_base(task, tool_rotation))
                                                  : ForceLoad(Eigen::Vector3d::Zero());
+  return task.index->score(compliance, tool_rotation, load);
+}
+
+double smooth_score(const Eigen::Matrix3d& compliance, const Eigen::Matrix3d& tool_rotation,
+                    const StiffnessTask& task, double power) {
+  if (task.index->has_ridge) {
+    const Eigen::Vector3d compliances = principal_compliances(compliance);
+    const double mean =
+        std::pow((compliances / compliances[0]).cwiseMax(0.0).array().pow(power).sum(), 1 / power);
+    return stiffness_score(compliance, tool_rotation, task) / mean;
+  }
+  ForceLoad load = task.load(force_in_base(task, tool_rotation));
+  load.smoothing = 1 / power;
   return task.index->score(compliance, tool_rotation, load);
 }
 

@@ -17,6 +17,7 @@ struct ForceLoad {
   Eigen::Vector3d force_n;
   double cone_rad = 0;   ///< it may point anywhere within this angle (at most pi/2) of force_n
   double turning_n = 0;  ///< beside it a force of this size turns about the tool axis, square to it
+  double smoothing = 0;  ///< of the kink where two of these forces tie: largest_over_turn()
 
   template <typename Derived>
   ForceLoad(const Eigen::MatrixBase<Derived>& force) : force_n(force) {}
@@ -70,6 +71,10 @@ struct StiffnessTask {
   bool feels_tool_turn() const;
   /// The load of a force in whatever frame.
   ForceLoad load(const Eigen::Vector3d& force) const { return {force, force_cone_rad, force_turning_n}; }
+  /// The score is the largest of several: not smooth where two tie.
+  bool has_kink() const {
+    return index->has_ridge || (index->needs_force && (force_cone_rad > 0 || force_turning_n > 0));
+  }
 };
 
 /// The task's force in the base frame, N, for a tool of that orientation (its axes in the base frame). Throws
@@ -85,5 +90,11 @@ Eigen::Vector3d worst_force(const StiffnessTask& task, const Eigen::Matrix3d& co
 /// when the index needs a force and the task has none.
 double stiffness_score(const Eigen::Matrix3d& compliance, const Eigen::Matrix3d& tool_rotation,
                        const StiffnessTask& task);
+
+/// The same without kinks where has_kink(): the largest principal compliance as the mean of power P of all,
+/// or of a force that varies with smoothing 1 / P. Not better than the score, and no worse by more than about
+/// 1 / P.
+double smooth_score(const Eigen::Matrix3d& compliance, const Eigen::Matrix3d& tool_rotation,
+                    const StiffnessTask& task, double power);
 
 }  // namespace stablecut::robot

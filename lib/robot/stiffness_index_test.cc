@@ -148,6 +148,9 @@ TEST_CASE("the deflection under a load that varies is the largest, and not below
     const double score = stiffness_score(c, tool, task);
     const Eigen::Vector3d worst = worst_force(task, c, tool), mean = force_in_base(task, tool);
     CHECK((c * worst).norm() == Approx(score).epsilon(1e-12));
+    const double smooth = smooth_score(c, tool, task, 100);
+    CHECK(smooth >= score * (1 - 1e-12));
+    CHECK(smooth <= score * 1.01);
     for (int i = 0; i < 200; ++i) {
       const double angle = 0.0314159 * i;
       const Eigen::Vector3d across = n % 2 ? mean.unitOrthogonal() : Eigen::Vector3d(tool.col(0));
