@@ -8,8 +8,8 @@
 namespace stablecut::robot {
 namespace {
 
-constexpr int kMostSteps = 100;     // Newton's with bisection: a guard, some eight are needed
-constexpr double kSettled = 1e-15;  // relative step
+constexpr int kMostRootSteps = 100;  // Newton's with bisection: a guard, some eight are needed
+constexpr double kRootStep = 1e-15;  // relative step
 
 // The unit vector w [2] that maximizes w^T G w + 2 b^T w [More1983]: with the multiplier mu not below the
 // larger eigenvalue of G, (mu - G) w = b.
@@ -40,14 +40,14 @@ CircleMaximum best_of_circle(const Eigen::Matrix2d& g, const Eigen::Vector2d& b,
   }
   // 1 - 1 / |w| falls with the excess, and Newton's steps on 1 / |w| hardly overshoot.
   double excess = low > 0 ? low : high - gap;
-  for (int step = 0; step < kMostSteps && high - low > kSettled * high; ++step) {
+  for (int step = 0; step < kMostRootSteps && high - low > kRootStep * high; ++step) {
     const Eigen::Vector2d w = point(excess);
     const double length = w.norm();
     (length > 1 ? low : high) = excess;
     const double slope = w[0] * w[0] / excess + w[1] * w[1] / (excess + gap);  // -d |w|^2 / 2
     double next = excess + (length - 1) * length * length / slope;
     if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (std::abs(next - excess) <= kSettled * next) break;
+    if (std::abs(next - excess) <= kRootStep * next) break;
     excess = next;
   }
   const Eigen::Vector2d w = point(excess).normalized();

@@ -1,6 +1,6 @@
 #include "robot/leave_one_out.h"
 
-#include <Eigen/SVD>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,7 +13,7 @@ namespace stablecut::robot {
 namespace {
 
 constexpr double kOutlierTail = 6.3e-5;  // two-sided probability of 4 deviations of a normal variable
-constexpr double kAlone = 1e-9;          // least eigenvalue of 1 - H: below, nothing else says it
+constexpr double kAlone = 1e-9;          // least pivot of 1 - H: below, nothing else says it
 
 // The weighted equations of the joints that are free to move, and each sample's part of 1 - H, where
 // H = A (A^T A)^-1 A^T is the hat matrix.
@@ -32,18 +32,20 @@ class LeaveOneOut {
   Eigen::Index unknowns() const { return a_.cols(); }
   const Eigen::VectorXd& whitening() const { return whitening_; }
 
+  // At most three deflections and three rotations.
+  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
   struct Sample {
-    Eigen::MatrixXd remainder;  // 1 - H of the sample's rows
-    Eigen::JacobiSVD<Eigen::MatrixXd> svd;
+    Square remainder;  // 1 - H of the sample's rows
+    Eigen::LDLT<Square> factor;
     bool alone;  // without it some compliance that it needs cannot be estimated
   };
   Sample without(const SampleRows& sample) const {
     const Eigen::MatrixXd part = a_(Eigen::seqN(sample.first, sample.count), Eigen::all);
     Sample result;
     result.remainder =
-        Eigen::MatrixXd::Identity(sample.count, sample.count) - part * inverse_normal_ * part.transpose();
-    result.svd.compute(result.remainder, Eigen::ComputeThinU | Eigen::ComputeThinV);
-    result.alone = result.svd.singularValues()[sample.count - 1] < kAlone;
+        Square::Identity(sample.count, sample.count) - part * inverse_normal_ * part.transpose();
+    result.factor.compute(result.remainder);
+    result.alone = !(result.factor.vectorD().minCoeff() > kAlone);
     return result;
   }
 
@@ -82,7 +84,7 @@ std::vector<Outlier> outliers(const ComplianceFit& fit, const OutlierOptions& op
     const Eigen::VectorXd own = r(Eigen::seqN(sample.first, sample.count));
     // With the robust loss the weights have spared the fit, and the residual counts in full.
     const double weight = fit.weight[sample.first];
-    auto worst = judge(own.dot(left.svd.solve(own)) / weight, static_cast<double>(sample.count));
+    auto worst = judge(own.dot(left.factor.solve(own)) / weight, static_cast<double>(sample.count));
     // A single bad component shows in its own row.
     for (Eigen::Index i = 0; i < sample.count; ++i) {
       const auto row = judge(own[i] * own[i] / left.remainder(i, i) / weight, 1);
