@@ -14,6 +14,7 @@
 #include "document/text/data_error.h"
 #include "milling/envelope.h"
 #include "options.h"
+#include "surface_option.h"
 
 namespace stablecut {
 namespace {
@@ -62,6 +63,7 @@ class SdmLobes : public cli::Tool {
 
     cli::begin_group(app, "The chart");
     app.add_flag("--limit-only", limit_only_, "Write the limits only, no grid of spectral radii");
+    surface_.declare(app);
 
     cli::begin_group(app, "What to run");
     run_.declare(app);
@@ -104,9 +106,11 @@ class SdmLobes : public cli::Tool {
         {"sha256", cli::sha256(table.source.text)}, {"modes", modes_.listed()}, {"seed", seed_.value_or(1)}};
     parts_.take_part(of, lobes);
 
+    surface_.check(cut_.cut(), lobes.scheme, !limit_only_ && !parts_.used(), structures.size());
     const ChartAxes axes(lobes);
     if (parts_.paths.empty()) {
       compute_chart(structures, axes, lobes);
+      surface_.compute(structures.front(), cut_.cut(), axes, threads(), quiet(), lobes);
       if (samples_) compute_samples(model, axes, lobes);
     } else {
       std::vector<document::Input> parts;
@@ -129,8 +133,7 @@ class SdmLobes : public cli::Tool {
   }
 
   void check_usage() const {
-    cli::refuse_if(!more_tables_.empty() &&
-                       (samples_ || per_mode_ || modes_.given() || parts_.shard || !parts_.paths.empty()),
+    cli::refuse_if(!more_tables_.empty() && (samples_ || per_mode_ || modes_.given() || parts_.used()),
                    "--samples, --per-mode, --modes, --shard, --merge: expected with one modal table only");
     cli::refuse_if(intervals_ && method_ != "sdm", "--intervals: expected with --method sdm only");
     cli::refuse_if(samples_ && method_ == "sdm", "--samples: expected with --method spectral only");
@@ -232,11 +235,11 @@ class SdmLobes : public cli::Tool {
   CutOptions cut_;
   ModeOptions modes_;
   RunOptions run_;
+  SurfaceOption surface_;
   std::optional<Range> speed_, depth_;
-  std::string method_ = "spectral";
+  std::string method_ = "spectral", points_path_;
   std::optional<int> intervals_, samples_, seed_;
   bool per_mode_ = false, limit_only_ = false;
-  std::string points_path_;
   std::vector<std::string> more_tables_;
   PartOptions parts_;
 };

@@ -157,7 +157,7 @@ milling::RunRequest RunOptions::request(const document::CutDocument& cut) const 
   if (count_) request.count = static_cast<std::size_t>(*count_);
   if (depth_margin_) request.depth_share = *depth_margin_;
   if (speed_margin_) request.speed_share = *speed_margin_;
-  request.feed_per_tooth_m = cut.feed_per_tooth_m;
+  if (cut.feed_per_tooth_m) request.load = cut.load;
   request.largest_power_w = largest_power_;
   request.largest_torque_n_m = largest_torque_;
   return request;

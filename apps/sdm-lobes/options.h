@@ -91,6 +91,8 @@ class PartOptions {
   std::optional<document::Shard> shard;  ///< of --shard
   std::vector<std::string> paths;        ///< of --merge
 
+  bool used() const { return shard || !paths.empty(); }
+
   /// The options, which do not change the result.
   std::vector<const CLI::Option*> declare(CLI::App& app);
   /// Leaves the part of --shard of the document's speeds; `of` is what it belongs to. Throws WrongUsage where

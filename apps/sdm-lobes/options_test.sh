@@ -103,6 +103,22 @@ check "samples: same bytes with 1 and 2 threads" cmp sampled.json single.json
 sdm-lobes "$table" --cut "$cut" "${small[@]}" --samples 2 2>said -o nothing.json
 check "samples of nothing: said" grep -q 'warning: --samples: neither a covariance' said
 
+# What stable cuts leave on the part.
+jq '.feed_per_tooth_mm = 0.1 | .diameter_mm = 12 | .kte_n_per_mm = 15 | .kre_n_per_mm = 20' "$cut" >fed.json
+sdm-lobes "$table" --cut fed.json "${small[@]}" --surface -o surface.json
+check_jq "a surface where the cut is stable, and only there" surface.json '[.spectral_radius, .surface.peak_vibration_um]
+  | map(flatten) | transpose | all((.[0] < 1) == (.[1] != null)) and any(.[1] != null)'
+check_jq "straight teeth: in proportion to the depth" surface.json '. as $d | .surface | [.location_error_um, .rms_vibration_um, .mean_normal_um]
+  | all(. as $g | [range($d.speed_rpm | length)] | all(. as $s | [range($d.depth_mm | length)
+    | select($d.depth_mm[.] > 0 and $g[.][$s] != null) | $g[.][$s] / $d.depth_mm[.]] | length < 2 or (max - min | fabs) < 1e-9 * (max | fabs)))'
+for change in '.runout_um = [3, -3]' '.pitch_deg = [170, 190]' '.process_damping_n_per_m = 1e3' 'del(.feed_per_tooth_mm)'; do
+  jq "$change" fed.json >refused.json
+  refused 64 '--surface: expected' sdm-lobes "$table" --cut refused.json "${small[@]}" --surface
+done
+refused 64 '--surface: expected a chart with its grid' sdm-lobes "$table" --cut fed.json --surface --limit-only
+jq '.runout_um = [1, 2, 3]' fed.json >refused.json
+refused 65 '/runout_um: a list of 3: expected 2 numbers, one for each tooth' sdm-lobes "$table" --cut refused.json "${small[@]}"
+
 jq '.helix_deg = 1e-7 | .pitch_deg = [180, 180]' "$cut" >plain.json
 sdm-lobes "$table" --cut plain.json "${small[@]}" -o plain-out.json
 check_jq "hardly any helix is none" plain-out.json '[.spectral_radius, $one[0].spectral_radius]

@@ -156,12 +156,12 @@ std::optional<LimitPoint> unconditional_limit(const std::vector<LimitPoint>& cur
   return best != refined.end() && best->depth_m ? std::optional(*best) : std::nullopt;
 }
 
-CutRate cut_rate(const Cutter& cutter, double feed_per_tooth_m, double revolutions_per_s, double depth_m) {
+CutRate cut_rate(const Cutter& cutter, const CuttingLoad& load, double revolutions_per_s, double depth_m) {
   const double width = cutter.diameter_m / 2 * (std::cos(cutter.entry_rad) - std::cos(cutter.exit_rad));
   CutRate rate;
-  rate.removal_m3_per_s = depth_m * width * feed_per_tooth_m * cutter.teeth * revolutions_per_s;
-  rate.power_w = cutter.kt_n_per_m2 * rate.removal_m3_per_s;
-  rate.torque_n_m = rate.power_w / (kTwoPi * revolutions_per_s);
+  rate.removal_m3_per_s = depth_m * width * load.feed_per_tooth_m * cutter.teeth * revolutions_per_s;
+  rate.torque_n_m = depth_m * force_cycle(cutter, load).mean()[3] * cutter.diameter_m / 2;
+  rate.power_w = kTwoPi * revolutions_per_s * rate.torque_n_m;
   return rate;
 }
 

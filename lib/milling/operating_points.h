@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "milling/cutter.h"
+#include "milling/cutting_force.h"
 #include "milling/structure.h"
 
 namespace stablecut::milling {
@@ -34,15 +35,15 @@ std::vector<double> speeds_between(const std::vector<TipStructure>& structures, 
 std::optional<LimitPoint> unconditional_limit(const std::vector<LimitPoint>& curve, const LimitAt& limit_at,
                                               int threads);
 
-/// What a cut removes, and the power and torque that it takes: Kt times the chip's volume is the cutting
-/// work, without edge forces [Altintas2012].
+/// What a cut removes, and the power and torque that it takes on the mean: Kt times the chip's volume and the
+/// work of the edge forces [Altintas2012].
 struct CutRate {
   double removal_m3_per_s = 0;
   double power_w = 0;
   double torque_n_m = 0;
 };
 /// The cutter's diameter must be set; the width of cut is that of the entry and exit angles.
-CutRate cut_rate(const Cutter& cutter, double feed_per_tooth_m, double revolutions_per_s, double depth_m);
+CutRate cut_rate(const Cutter& cutter, const CuttingLoad& load, double revolutions_per_s, double depth_m);
 
 struct OperatingLimits {
   double largest_depth_m = 0;

@@ -106,14 +106,19 @@ TEST_CASE("best points keep their margins, and power and torque limits") {
   CHECK(best_points(chart, limits, 0, limit_of_valley, 1).empty());
 }
 
+const CuttingLoad kLoad{0.05e-3, 0, 0, 0, 0, {}};
+
 TEST_CASE("removal, power and torque of a cut") {
   Cutter cutter = fixtures::benchmark_cutter(true, 0.25, 2);
   cutter.diameter_m = 0.012;
   // 3 mm wide, 1 mm deep, 0.05 mm for each of two teeth, 100 turns a second: 30 mm3/s.
-  const CutRate rate = cut_rate(cutter, 0.05e-3, 100, 1e-3);
+  const CutRate rate = cut_rate(cutter, kLoad, 100, 1e-3);
   CHECK(rate.removal_m3_per_s == Approx(30e-9));
   CHECK(rate.power_w == Approx(600e6 * 30e-9));
   CHECK(rate.torque_n_m == Approx(rate.power_w / (kTwoPi * 100)));
+  // Edges of 20 N/mm rub over 60 degrees of each of 200 passes a second.
+  const CutRate rubbed = cut_rate(cutter, {0.05e-3, 0, 20e3, 0, 0, {}}, 100, 1e-3);
+  CHECK(rubbed.power_w - rate.power_w == Approx(20e3 * 1e-3 * 0.006 * kPi / 3 * 200));
 }
 
 TEST_CASE("what to run keeps the chart's limits, and power and torque by the feed") {
@@ -139,9 +144,9 @@ TEST_CASE("what to run keeps the chart's limits, and power and torque by the fee
       CHECK(spectral_radius(map, point.depth_m) < 1);
     }
   }
-  request.feed_per_tooth_m = 0.05e-3;
+  request.load = kLoad;
   request.largest_power_w =
-      0.5 * cut_rate(cutter, 0.05e-3, plain.best[0].revolutions_per_s, plain.best[0].depth_m).power_w;
+      0.5 * cut_rate(cutter, kLoad, plain.best[0].revolutions_per_s, plain.best[0].depth_m).power_w;
   const WhatToRun less = what_to_run({structure}, cutter, curve, request, 1);
   REQUIRE(less.rates.size() == less.best.size());
   REQUIRE(!less.best.empty());

@@ -19,9 +19,9 @@ OperatingLimits limits_of(const RunRequest& request, const Cutter& cutter, doubl
   limits.largest_depth_m = largest_depth_m;
   limits.depth_share = request.depth_share;
   limits.speed_share = request.speed_share;
-  if (request.feed_per_tooth_m) {
+  if (request.load) {
     // Power is proportional to depth times speed, and torque to depth.
-    const CutRate unit = cut_rate(cutter, *request.feed_per_tooth_m, 1, 1);
+    const CutRate unit = cut_rate(cutter, *request.load, 1, 1);
     if (request.largest_power_w) limits.largest_depth_times_speed = *request.largest_power_w / unit.power_w;
     if (request.largest_torque_n_m)
       limits.largest_depth_by_torque = *request.largest_torque_n_m / unit.torque_n_m;
@@ -114,10 +114,9 @@ WhatToRun what_to_run(const std::vector<TipStructure>& structures, const Cutter&
   }
   what.limits = limits_of(request, cutter, curve.largest_depth_m);
   what.best = best_points(all, what.limits, request.count, limit_at, threads);
-  if (request.feed_per_tooth_m) {
+  if (request.load) {
     for (const OperatingPoint& point : what.best)
-      what.rates.push_back(
-          cut_rate(cutter, *request.feed_per_tooth_m, point.revolutions_per_s, point.depth_m));
+      what.rates.push_back(cut_rate(cutter, *request.load, point.revolutions_per_s, point.depth_m));
   }
   return what;
 }

@@ -25,11 +25,11 @@ LimitCurve limit_curve(const StabilityChart& chart, const std::vector<double>& r
 
 /// What is asked of the best points.
 struct RunRequest {
-  std::size_t count = 5;                   ///< points at most
-  double depth_share = 0.1;                ///< as OperatingLimits'
-  double speed_share = 0.02;               ///< as OperatingLimits'
-  std::optional<double> feed_per_tooth_m;  ///< needed for rates; then the cutter has a diameter
-  std::optional<double> largest_power_w, largest_torque_n_m;  ///< need the feed
+  std::size_t count = 5;            ///< points at most
+  double depth_share = 0.1;         ///< as OperatingLimits'
+  double speed_share = 0.02;        ///< as OperatingLimits'
+  std::optional<CuttingLoad> load;  ///< needed for rates; then the cutter has a diameter
+  std::optional<double> largest_power_w, largest_torque_n_m;  ///< need the load
 };
 
 struct WhatToRun {

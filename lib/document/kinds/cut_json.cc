@@ -89,14 +89,57 @@ void read_process_damping(const Node& root, milling::Cutter& cutter) {
   }
 }
 
+void read_load(const Node& root, CutDocument& cut) {
+  if (const auto feed = root.find("feed_per_tooth_mm")) {
+    cut.feed_per_tooth_m = metres_from_mm(feed->number(kPositive));
+    if (!root.has("diameter_mm")) feed->fail("expected diameter_mm beside it");
+    cut.load.feed_per_tooth_m = *cut.feed_per_tooth_m;
+  }
+  const auto coefficient = [&](const char* name) {
+    const auto node = root.find(name);
+    return node ? node->number(kNotNegative) : 0;
+  };
+  cut.load.ka_n_per_m2 = n_per_m2_from_n_per_mm2(coefficient("ka_n_per_mm2"));
+  cut.load.kte_n_per_m = n_per_m_from_n_per_mm(coefficient("kte_n_per_mm"));
+  cut.load.kre_n_per_m = n_per_m_from_n_per_mm(coefficient("kre_n_per_mm"));
+  cut.load.kae_n_per_m = n_per_m_from_n_per_mm(coefficient("kae_n_per_mm"));
+  if (const auto runout = root.find("runout_um")) {
+    const Eigen::VectorXd radii = runout->numbers();
+    if (radii.size() != cut.cutter.teeth)
+      runout->fail("expected " + std::to_string(cut.cutter.teeth) + " numbers, one for each tooth");
+    if ((radii.array() != radii[0]).any())
+      for (const double radius : radii) cut.load.runout_m.push_back(radius * 1e-6);
+  }
+}
+
 }  // namespace
 
 CutDocument cut_from_json(const Json& document, const Source& source) {
   const Node root = document_root(document, source, "cut");
-  root.check_names({"format", "teeth", "kt_n_per_mm2", "kr_n_per_mm2", "milling", "radial_immersion",
-                    "entry_deg", "exit_deg", "feed_angle_deg", "pitch_deg", "helix_deg", "diameter_mm",
-                    "chart", "provenance", "feed_per_tooth_mm", "process_damping_n_per_m",
-                    "process_damping_friction", "kt_std_n_per_mm2", "kr_std_n_per_mm2"});
+  root.check_names({"format",
+                    "teeth",
+                    "kt_n_per_mm2",
+                    "kr_n_per_mm2",
+                    "milling",
+                    "radial_immersion",
+                    "entry_deg",
+                    "exit_deg",
+                    "feed_angle_deg",
+                    "pitch_deg",
+                    "helix_deg",
+                    "diameter_mm",
+                    "chart",
+                    "provenance",
+                    "feed_per_tooth_mm",
+                    "process_damping_n_per_m",
+                    "process_damping_friction",
+                    "kt_std_n_per_mm2",
+                    "kr_std_n_per_mm2",
+                    "ka_n_per_mm2",
+                    "kte_n_per_mm",
+                    "kre_n_per_mm",
+                    "kae_n_per_mm",
+                    "runout_um"});
   CutDocument cut;
   cut.cutter.teeth = root.at("teeth").integer(1, kMostTeeth);
   cut.cutter.kt_n_per_m2 = n_per_m2_from_n_per_mm2(root.at("kt_n_per_mm2").number(kPositive));
@@ -109,10 +152,7 @@ CutDocument cut_from_json(const Json& document, const Source& source) {
     cut.cutter.diameter_m = metres_from_mm(diameter->number(kPositive));
   read_edges(root, cut.cutter);
   read_process_damping(root, cut.cutter);
-  if (const auto feed = root.find("feed_per_tooth_mm")) {
-    cut.feed_per_tooth_m = metres_from_mm(feed->number(kPositive));
-    if (!root.has("diameter_mm")) feed->fail("expected diameter_mm beside it");
-  }
+  read_load(root, cut);
   if (const auto kt = root.find("kt_std_n_per_mm2"))
     cut.deviations.kt_n_per_m2 = n_per_m2_from_n_per_mm2(kt->number(kNotNegative));
   if (const auto kr = root.find("kr_std_n_per_mm2"))

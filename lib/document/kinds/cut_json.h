@@ -6,6 +6,7 @@
 #include "base/range.h"
 #include "document/text/json_text.h"
 #include "milling/cutter.h"
+#include "milling/cutting_force.h"
 #include "milling/sampled_stability.h"
 
 namespace stablecut::document {
@@ -13,6 +14,7 @@ namespace stablecut::document {
 struct CutDocument {
   milling::Cutter cutter;
   std::optional<double> feed_per_tooth_m;  ///< with a diameter
+  milling::CuttingLoad load;               ///< with the feed where there is one
   milling::CoefficientDeviations deviations;
   std::optional<Range> speed_rpm;  ///< of the chart
   std::optional<Range> depth_mm;   ///< of the chart

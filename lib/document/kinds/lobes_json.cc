@@ -148,6 +148,29 @@ Json what_to_run_to_json(const milling::WhatToRun& what) {
   return document;
 }
 
+Json surface_to_json(const milling::SurfaceChart& surface) {
+  const auto grid = [&](const auto& value) {
+    Json rows = Json::array();
+    for (const auto& points : surface) {
+      Json row = Json::array();
+      for (const auto& point : points) {
+        const std::optional<double> metres = point ? value(*point) : std::nullopt;
+        row.push_back(metres ? Json(*metres * 1e6) : Json(nullptr));
+      }
+      rows.push_back(std::move(row));
+    }
+    return rows;
+  };
+  using Point = milling::SurfacePoint;
+  using Metres = std::optional<double>;
+  return {{"location_error_um", grid([](const Point& p) { return p.location_error_m; })},
+          {"peak_vibration_um", grid([](const Point& p) { return Metres(p.peak_vibration_m); })},
+          {"rms_vibration_um", grid([](const Point& p) { return Metres(p.rms_vibration_m); })},
+          {"mean_deflection_um", grid([](const Point& p) { return Metres(p.mean_deflection_m.norm()); })},
+          {"mean_feed_um", grid([](const Point& p) { return Metres(p.mean_deflection_m.x()); })},
+          {"mean_normal_um", grid([](const Point& p) { return Metres(p.mean_deflection_m.y()); })}};
+}
+
 // Grids [depth][speed] of a part into every Nth column.
 void read_columns(const Node& rows, const Shard& shard, Eigen::MatrixXd& grid) {
   const auto items = rows.items();
@@ -254,6 +277,7 @@ Json lobes_to_json(const LobesDocument& lobes) {
   document["speed_rpm"] = lobes.speed_rpm;
   document["depth_mm"] = lobes.depth_mm;
   if (chart.spectral_radius.size() > 0) document["spectral_radius"] = rows_to_json(chart.spectral_radius);
+  if (!lobes.surface.empty()) document["surface"] = surface_to_json(lobes.surface);
   document["limit"] = limit_to_json(lobes.speed_rpm, chart.crossings, chart.failure, with_table);
   document["crossings"] = crossings_to_json(lobes.speed_rpm, chart.crossings, with_table);
   if (lobes.sampled) {

@@ -10,6 +10,7 @@
 #include "milling/lobes.h"
 #include "milling/mode_limits.h"
 #include "milling/sampled_stability.h"
+#include "milling/surface.h"
 #include "milling/tested_cuts.h"
 #include "milling/what_to_run.h"
 
@@ -45,6 +46,7 @@ struct LobesDocument {
   std::vector<MeasuredCut> measured_cuts;
   std::vector<milling::JudgedCut> judged_cuts;  ///< as many
   std::optional<milling::WhatToRun> what_to_run;
+  milling::SurfaceChart surface;  ///< empty: not asked for
 
   /// The largest estimated error of the spectral radii.
   double convergence() const;

@@ -1,0 +1,43 @@
+// The force of a cut that does not vibrate, from its mean chip. README.md, "The force of a cut".
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "milling/cutter.h"
+#include "milling/turning_arcs.h"
+
+namespace stablecut::milling {
+
+/// What the force of a chip needs beside the cutter: the feed, and what stability does not depend on.
+struct CuttingLoad {
+  double feed_per_tooth_m = 0;  ///< mean over the teeth
+  double ka_n_per_m2 = 0;       ///< axial cutting force coefficient
+  double kte_n_per_m = 0;       ///< edge forces along the cut, across it and along the axis
+  double kre_n_per_m = 0;
+  double kae_n_per_m = 0;
+  /// [teeth] radius of each tooth above the mean; empty: none.
+  std::vector<double> runout_m;
+};
+
+/// Components of a force: feed, normal and axial (the cut's frame: X, Y, and Z from the tip to the spindle),
+/// and the sum of what the teeth feel along the cut, which times the radius is the torque.
+using ForceParts = Eigen::Vector4d;
+
+/// The force of straight teeth per depth, N/m: the sum over the arcs on which a tooth's chip thickness is one
+/// multiple of sin(phi) and a constant, repeated every period.
+struct ForceCycle {
+  double period_rad = 0;  ///< the pitch, or the revolution where teeth differ
+  std::vector<TurningArc<4>> arcs;
+
+  ForceParts mean() const { return integral_to(arcs, period_rad, period_rad) / period_rad; }
+};
+
+/// The chip of a tooth is what the teeth before it left: with runout that may be the work of a tooth further
+/// back, and a tooth may cut nothing. Turn 0: tooth 1 at phi = 0.
+ForceCycle force_cycle(const Cutter& cutter, const CuttingLoad& load);
+
+/// The force at a turn of edges that lag behind their tips, N.
+ForceParts force_at(const ForceCycle& cycle, double lag_rad_per_m, double depth_m, double turn_rad);
+
+}  // namespace stablecut::milling

@@ -1,0 +1,123 @@
+#include "milling/forced_vibration.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <complex>
+
+#include "base/units.h"
+
+namespace stablecut::milling {
+namespace {
+
+using Complex = std::complex<double>;
+
+}  // namespace
+
+ForcedVibration::ForcedVibration(const TipStructure& structure, const Cutter& cutter, const ForceCycle& force,
+                                 double revolutions_per_s,
+                                 const std::optional<Eigen::Matrix2d>& static_compliance)
+    : period_rad_(force.period_rad), lag_rad_per_m_(cutter.lag_rad_per_m) {
+  const double omega = kTwoPi * revolutions_per_s;
+  const Eigen::Matrix2d feed = Eigen::Rotation2Dd(cutter.feed_angle_rad).toRotationMatrix();
+  const Eigen::MatrixXd into_cut = feed.transpose()(Eigen::all, structure.axes);
+  shape_ = into_cut * structure.psi_r;
+  const Eigen::Matrix2Xcd left = into_cut * structure.psi_l;
+  rate_ = structure.lambda / omega;
+  const auto receptance = [&](Complex s) -> Eigen::Matrix2cd {
+    const Eigen::VectorXcd own = (s - structure.lambda.array()).inverse(),
+                           other = (s - structure.lambda.array().conjugate()).inverse();
+    return shape_ * own.asDiagonal() * left.transpose() +
+           shape_.conjugate() * other.asDiagonal() * left.adjoint();
+  };
+  for (const TurningArc<4>& arc : force.arcs) {
+    TurningArc<2> driven{arc.from_rad, arc.to_rad, {}};
+    for (int m = 0; m < 3; ++m)
+      driven.harmonics.col(m) = receptance(Complex(0, m * omega)) * arc.harmonics.col(m).head<2>();
+    driven_.push_back(driven);
+    // A mode follows the arc's harmonics from its beginning, less what it would have had then, and swings
+    // freely from its end with what it has.
+    for (const double turn : {arc.from_rad, arc.to_rad}) {
+      Eigen::VectorXcd state = Eigen::VectorXcd::Zero(structure.modes());
+      for (int m = -2; m <= 2; ++m) {
+        Eigen::Vector2cd part = arc.harmonics.col(std::abs(m)).head<2>();
+        if (m < 0) part = part.conjugate().eval();
+        state.array() += (left.transpose() * part).array() * std::polar(1.0, m * turn) /
+                         (Complex(0, m * omega) - structure.lambda.array());
+      }
+      if (turn == arc.from_rad) state = -state;
+      breaks_.push_back({turn, state});
+    }
+  }
+  const Eigen::Vector2d force_mean = force.mean().head<2>();
+  const Eigen::Matrix2d of_modes = receptance(0).real();
+  const Eigen::Matrix2d compliance =
+      static_compliance ? feed.transpose() * *static_compliance * feed : of_modes;
+  mean_ = compliance * force_mean;
+  rest_ = mean_ - of_modes * force_mean;
+}
+
+ForcedVibration::Free ForcedVibration::free_at(double turn_rad) const {
+  Free free{Eigen::VectorXcd::Zero(rate_.size()), Eigen::VectorXcd::Zero(rate_.size())};
+  for (const Break& at : breaks_) {
+    const double since = turn_rad - at.turn_rad, periods = last_passed(at.turn_rad, period_rad_, turn_rad);
+    free.state.array() += at.jump.array() * (rate_ * (since - periods * period_rad_)).array().exp();
+    free.jumped += periods * at.jump;
+  }
+  free.state.array() /= 1.0 - (rate_ * period_rad_).array().exp();
+  return free;
+}
+
+// Calls visit(turn, free motion) at turns at equal distances over a period.
+template <typename Visit>
+void ForcedVibration::walk(double from_rad, int count, const Visit& visit) const {
+  const double step = period_rad_ / count;
+  const Eigen::VectorXcd growth = (rate_ * step).array().exp();
+  Free free = free_at(from_rad);
+  for (int i = 0; i < count; ++i) {
+    const double turn = from_rad + i * step, end = from_rad + (i + 1) * step;
+    visit(turn, free);
+    free.state = free.state.cwiseProduct(growth);
+    for (const Break& at : breaks_) {
+      const double since = end - at.turn_rad, periods = last_passed(at.turn_rad, period_rad_, end);
+      if (periods == last_passed(at.turn_rad, period_rad_, turn)) continue;
+      free.state.array() += at.jump.array() * (rate_ * (since - periods * period_rad_)).array().exp();
+      free.jumped += at.jump;
+    }
+  }
+}
+
+Eigen::Matrix2Xd ForcedVibration::per_depth(double from_rad, int count) const {
+  Eigen::Matrix2Xd result(2, count);
+  Eigen::Index i = 0;
+  walk(from_rad, count, [&](double turn, const Free& free) {
+    result.col(i++) = sum_at(driven_, period_rad_, turn) + 2 * (shape_ * free.state).real() + rest_;
+  });
+  return result;
+}
+
+// Of that, but for a constant.
+Eigen::Matrix2Xd ForcedVibration::integrals(double from_rad, int count) const {
+  Eigen::Matrix2Xd result(2, count);
+  Eigen::Index i = 0;
+  walk(from_rad, count, [&](double turn, const Free& free) {
+    result.col(i++) = integral_to(driven_, period_rad_, turn) +
+                      2 * (shape_ * (free.state - free.jumped).cwiseQuotient(rate_)).real() + rest_ * turn;
+  });
+  return result;
+}
+
+Eigen::Matrix2Xd ForcedVibration::over_depth(double depth_m, double from_rad, int count) const {
+  const double lag = lag_rad_per_m_ * depth_m;
+  if (std::abs(lag) < kStraight) return depth_m * per_depth(from_rad, count);
+  return (integrals(from_rad, count) - integrals(from_rad - lag, count)) / lag_rad_per_m_;
+}
+
+Eigen::Vector2d ForcedVibration::displacement(double depth_m, double turn_rad) const {
+  return over_depth(depth_m, turn_rad, 1);
+}
+
+Eigen::Matrix2Xd ForcedVibration::displacements(double depth_m, int count) const {
+  return over_depth(depth_m, 0, count);
+}
+
+}  // namespace stablecut::milling

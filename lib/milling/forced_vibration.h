@@ -1,0 +1,58 @@
+// The periodic motion of the tip under the force of a cut. README.md, "Forced vibration".
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "milling/cutting_force.h"
+#include "milling/structure.h"
+
+namespace stablecut::milling {
+
+/// The tip's motion at one speed where it does not change the chip: equal pitches without runout, where every
+/// tooth leaves the same surface, and no process damping. Exact: each mode's motion between the breaks of the
+/// force is known in closed form.
+class ForcedVibration {
+ public:
+  /// `force` as force_cycle(), turned by the cutter's feed angle into the structure's frame. With a static
+  /// compliance, m/N in the structure's x and y, the mean deflection is that, whatever the modes say.
+  ForcedVibration(const TipStructure& structure, const Cutter& cutter, const ForceCycle& force,
+                  double revolutions_per_s, const std::optional<Eigen::Matrix2d>& static_compliance);
+
+  double period_rad() const { return period_rad_; }
+  /// Displacement at a turn, m, in the cut's frame: along the feed and normal to it.
+  Eigen::Vector2d displacement(double depth_m, double turn_rad) const;
+  /// The same at `count` turns at equal distances over a period from turn 0, [2 x count]: cheaper.
+  Eigen::Matrix2Xd displacements(double depth_m, int count) const;
+  /// Its mean over the period.
+  Eigen::Vector2d mean(double depth_m) const { return depth_m * mean_; }
+
+ private:
+  // What the beginning or end of an arc adds to the modes' free motion.
+  struct Break {
+    double turn_rad;
+    Eigen::VectorXcd jump;  // [modes]
+  };
+  // The modes' free motion at some turn: what all breaks before have left of it, and the sum of the jumps,
+  // but for a constant.
+  struct Free {
+    Eigen::VectorXcd state, jumped;
+  };
+  Free free_at(double turn_rad) const;
+  template <typename Visit>
+  void walk(double from_rad, int count, const Visit& visit) const;
+  Eigen::Matrix2Xd per_depth(double from_rad, int count) const;
+  Eigen::Matrix2Xd integrals(double from_rad, int count) const;
+  Eigen::Matrix2Xd over_depth(double depth_m, double from_rad, int count) const;
+
+  double period_rad_, lag_rad_per_m_;
+  Eigen::VectorXcd rate_;    // [modes], per rad of turn
+  Eigen::Matrix2Xcd shape_;  // [2 x modes], in the cut's frame
+  std::vector<Break> breaks_;
+  std::vector<TurningArc<2>> driven_;  // while an arc is in cut
+  Eigen::Vector2d rest_;               // the static compliance's part that the modes lack, per depth
+  Eigen::Vector2d mean_;
+};
+
+}  // namespace stablecut::milling
