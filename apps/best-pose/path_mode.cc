@@ -10,7 +10,6 @@
 #include "cli/tool.h"
 #include "document/measured/tool_path_text.h"
 #include "path_words.h"
-#include "robot/keep_out.h"
 
 namespace stablecut {
 namespace {
@@ -156,7 +155,7 @@ PathResult solve_path(const robot::Robot& robot, const robot::PathTask& task,
   PathResult result;
   result.undone = obstacles_text(search.obstacles, robot, task);
   if (search.parts.empty()) return result;
-  document::PosePathDocument document{task, search, {}, {}, 0, {}};
+  document::PosePathDocument document{task, search, {}, 0, {}};
   std::vector<std::pair<std::size_t, const robot::PathPose*>> poses;
   double worst = 0;
   for (std::size_t p = 0; p < search.parts.size(); ++p) {
@@ -170,13 +169,10 @@ PathResult solve_path(const robot::Robot& robot, const robot::PathTask& task,
   }
   document.worst = robot::worst_point(model, search.parts[document.worst_part]);
   document.reports.resize(poses.size());
-  if (robot.keep_out_radius_m > 0) document.keep_out_margin_m.resize(poses.size());
   parallel_for(poses.size(), threads, [&](std::size_t i) {
     const auto& [point, pose] = poses[i];
     document.reports[i] = robot::report_pose(robot, pose->angles, point_task(task, model.frames(), point),
                                              task.elasticity, errors);
-    if (!document.keep_out_margin_m.empty())
-      document.keep_out_margin_m[i] = robot::keep_out_margin_m(robot, robot_pose(robot, pose->angles));
   });
   result.document = document::pose_path_to_json(document, robot);
   result.joints_csv = document::joint_angles_csv(search, robot);

@@ -54,13 +54,22 @@ jq '{format: "stablecut/pose-list/1", poses: [.points[] | {joints_deg}]}' base-p
 run --evaluate base-poses.json --index deflection --force 0,400,0 base.json -o base-scores.json
 check_jq "the deflection of all springs, as of single poses" base-path.json '[[.points[].score], [$e[0].evaluated[].score]] | transpose | all(.[0] / .[1] - 1 | fabs < 1e-9)' --slurpfile e base-scores.json
 
+# A force that varies.
+run --path line.json --force 0,400,0 --force-cone 20 k2d.json -o cone-path.json
+jq '{format: "stablecut/pose-list/1", poses: [.points[] | {joints_deg}]}' cone-path.json >cone-poses.json
+run --evaluate cone-poses.json --force 0,400,0 --force-cone 20 k2d.json -o cone-scores.json
+check_jq "the largest deflection over a cone, as of single poses" cone-path.json '[[.points[].score], [$e[0].evaluated[].score]] | transpose | all(.[0] / .[1] - 1 | fabs < 1e-8)' --slurpfile e cone-scores.json
+check_jq "which is more than that of its middle" cone-path.json 'all(.points[]; .score > .deflection_um * 1.001)'
+
 # What cannot be driven.
 jq '.points = [range(41) | {position_mm: [. * 100, 0, 0], axis: [0, 0, -1]}]' line.json >long.json
 refused 1 '^best-pose: long.json: points [0-9]* to 40: out of reach' run --path long.json k2d.json
 refused 1 'points [0-9]* to [0-9]*: joint speed between points: A[1-6] would need .* of 1 deg/s' run --path line.json --joint-speed 1 k2d.json
 # The straight tool stands on the line x = 1800: within 1830 of axis 1 where |y| is below 330.
 jq '.keep_out_radius_mm = 1830' "$robot" >guarded.json
-refused 1 'points 9 to 41: tool in the keep-out cylinder by' best-pose --robot guarded.json --path line.json --quiet k2d.json
+refused 1 'points 9 to 41: tool or links in what they keep out of by' best-pose --robot guarded.json --path line.json --quiet k2d.json
+refused 1 'points 20 to 30: tool or links in what they keep out of by' run --path line.json --keep-out-radius 0 --keep-out 1700:2700,-100.5:100.5,900:1100 k2d.json
+refused 1 'points 0 to 50: tool or links in what they keep out of by' run --path line.json --keep-out-radius 0 --floor 1001 k2d.json
 check "the rest of a path" run --path long.json --partial k2d.json -o rest.json
 check_jq "with what is left out" rest.json '(.points | length) == .obstacles[0].first and .obstacles[-1].last == 40 and .obstacles[-1].constraint == "reach"'
 best-pose --robot offset.json --path long.json --partial k2d.json -o rest.json 2>.err

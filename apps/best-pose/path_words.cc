@@ -28,7 +28,8 @@ std::string fault_text(const robot::PoseFault& fault, const robot::Robot& robot,
       return "nearer to a singularity than the singularity margin, " +
              number_text(task.singularity_margin - fault.missing, 3);
     case robot::PoseFault::Kind::kKeepOut:
-      return "tool in the keep-out cylinder by " + number_text(mm_from_metres(fault.missing), 3) + " mm";
+      return "tool or links in what they keep out of by " + number_text(mm_from_metres(fault.missing), 3) +
+             " mm";
     case robot::PoseFault::Kind::kNone:
       break;
   }

@@ -99,4 +99,8 @@ jq '.placement.map |= map(.outcome = "no-pose" | .objective = null | .bound = nu
 check "places that are not driven" "$scripts/plot-path" nowhere.json -o nowhere.svg
 jq '.points[3] |= del(.tcp_mm)' path.json >short.json
 refused 65 '^plot-path: short.json: /points: expected poses' "$scripts/plot-path" short.json -o x.svg
+for field in .singularity_margin '.joint_speed_limit_deg_per_s[2]'; do
+  jq "$field = \"system(1)\"" path.json >hostile.json
+  refused 65 '^plot-path: hostile.json: .*expected numbers' "$scripts/plot-path" hostile.json -o x.svg
+done
 refused 65 '^plot-path: wall.json: /height_mm: expected a horizontal plane' "$scripts/plot-path" path.json --map wall.json -o x.svg

@@ -30,7 +30,7 @@ void SurfaceOption::compute(const milling::TipStructure& structure, const docume
   cli::ProgressBar bar("sdm-lobes: surface", !quiet);
   lobes.surface =
       milling::surface_chart(structure, cut.cutter, cut.load, axes.revolutions_per_s, axes.depths_m,
-                             lobes.chart, std::nullopt, threads, [&](double share) { bar.show(share); });
+                             lobes.chart, threads, [&](double share) { bar.show(share); });
 }
 
 }  // namespace stablecut

@@ -115,12 +115,4 @@ ForceCycle force_cycle(const Cutter& cutter, const CuttingLoad& load) {
   return cycle;
 }
 
-ForceParts force_at(const ForceCycle& cycle, double lag_rad_per_m, double depth_m, double turn_rad) {
-  const double lag = lag_rad_per_m * depth_m;
-  if (std::abs(lag) < kStraight) return depth_m * sum_at(cycle.arcs, cycle.period_rad, turn_rad);
-  return (integral_to(cycle.arcs, cycle.period_rad, turn_rad) -
-          integral_to(cycle.arcs, cycle.period_rad, turn_rad - lag)) /
-         lag_rad_per_m;
-}
-
 }  // namespace stablecut::milling

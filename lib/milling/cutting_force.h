@@ -37,7 +37,4 @@ struct ForceCycle {
 /// back, and a tooth may cut nothing. Turn 0: tooth 1 at phi = 0.
 ForceCycle force_cycle(const Cutter& cutter, const CuttingLoad& load);
 
-/// The force at a turn of edges that lag behind their tips, N.
-ForceParts force_at(const ForceCycle& cycle, double lag_rad_per_m, double depth_m, double turn_rad);
-
 }  // namespace stablecut::milling

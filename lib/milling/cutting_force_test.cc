@@ -12,14 +12,11 @@ using namespace stablecut::milling;
 
 namespace {
 
+// Of the benchmark: Kt = 600, Kr = 200 N/mm2.
 Cutter cutter_of(int teeth, double entry_deg, double exit_deg) {
-  Cutter cutter;
-  cutter.teeth = teeth;
-  cutter.kt_n_per_m2 = 800e6;
-  cutter.kr_n_per_m2 = 300e6;
+  Cutter cutter = fixtures::benchmark_cutter(true, 1, teeth);
   cutter.entry_rad = radians_from_degrees(entry_deg);
   cutter.exit_rad = radians_from_degrees(exit_deg);
-  cutter.diameter_m = 16e-3;
   return cutter;
 }
 
@@ -64,15 +61,15 @@ TEST_CASE("mean force of a slot: the average force model") {
     const double depth = 2e-3;
     const ForceParts force = depth * force_cycle(cutter, kLoad).mean();
     const double quarter = teeth * depth / 4, edge = teeth * depth / kPi;
-    CHECK(force.x() == Approx(-quarter * 300e6 * kFeed - edge * 30e3).epsilon(1e-12));
-    CHECK(force.y() == Approx(quarter * 800e6 * kFeed + edge * 20e3).epsilon(1e-12));
+    CHECK(force.x() == Approx(-quarter * 200e6 * kFeed - edge * 30e3).epsilon(1e-12));
+    CHECK(force.y() == Approx(quarter * 600e6 * kFeed + edge * 20e3).epsilon(1e-12));
     CHECK(force.z() == Approx(edge * 150e6 * kFeed + teeth * depth / 2 * 5e3).epsilon(1e-12));
     // Along the cut: Kt times the chips' area, and the edges over half a turn.
-    CHECK(force[3] == Approx(edge * 800e6 * kFeed + teeth * depth / 2 * 20e3).epsilon(1e-12));
+    CHECK(force[3] == Approx(edge * 600e6 * kFeed + teeth * depth / 2 * 20e3).epsilon(1e-12));
   }
 }
 
-TEST_CASE("force at a turn, also with unequal pitches, runout and a helix") {
+TEST_CASE("force at a turn and its integral, also with unequal pitches and runout") {
   std::mt19937_64 generator(3);
   for (int n = 0; n < 40; ++n) {
     const int teeth = 1 + n % 5;
@@ -95,15 +92,18 @@ TEST_CASE("force at a turn, also with unequal pitches, runout and a helix") {
     INFO("case " << n);
     for (int i = 0; i < 50; ++i) {
       const double turn = numerics::uniform(generator, -10, 10);
-      CHECK((force_at(cycle, 0, 1, turn).head<3>() - plain_force(cutter, load, turn)).norm() < 1e-9 * size);
+      const ForceParts force = sum_at(cycle.arcs, cycle.period_rad, turn);
+      CHECK((force.head<3>() - plain_force(cutter, load, turn)).norm() < 1e-9 * size);
     }
-    // An edge that lags is many straight ones: by the midpoint rule, whose error at jumps is a step's force.
-    const double lag = (n % 2 == 0 ? 1 : -1) * 180.0, depth = 4e-3, turn = numerics::uniform(generator, 0, 6);
+    // By the midpoint rule, whose error where a tooth enters or leaves is a step's force.
+    const double from = numerics::uniform(generator, -6, 0), to = numerics::uniform(generator, 0, 6);
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     constexpr int kSteps = 20000;
     for (int i = 0; i < kSteps; ++i)
-      sum += plain_force(cutter, load, turn - lag * depth * (i + 0.5) / kSteps) * depth / kSteps;
-    CHECK((force_at(cycle, lag, depth, turn).head<3>() - sum).norm() < 1e-3 * size * depth);
+      sum += plain_force(cutter, load, from + (to - from) * (i + 0.5) / kSteps) * (to - from) / kSteps;
+    const ForceParts integral =
+        integral_to(cycle.arcs, cycle.period_rad, to) - integral_to(cycle.arcs, cycle.period_rad, from);
+    CHECK((integral.head<3>() - sum).norm() < 1e-2 * size);
   }
 }
 

@@ -14,8 +14,7 @@ using Complex = std::complex<double>;
 }  // namespace
 
 ForcedVibration::ForcedVibration(const TipStructure& structure, const Cutter& cutter, const ForceCycle& force,
-                                 double revolutions_per_s,
-                                 const std::optional<Eigen::Matrix2d>& static_compliance)
+                                 double revolutions_per_s)
     : period_rad_(force.period_rad), lag_rad_per_m_(cutter.lag_rad_per_m) {
   const double omega = kTwoPi * revolutions_per_s;
   const Eigen::Matrix2d feed = Eigen::Rotation2Dd(cutter.feed_angle_rad).toRotationMatrix();
@@ -48,12 +47,7 @@ ForcedVibration::ForcedVibration(const TipStructure& structure, const Cutter& cu
       breaks_.push_back({turn, state});
     }
   }
-  const Eigen::Vector2d force_mean = force.mean().head<2>();
-  const Eigen::Matrix2d of_modes = receptance(0).real();
-  const Eigen::Matrix2d compliance =
-      static_compliance ? feed.transpose() * *static_compliance * feed : of_modes;
-  mean_ = compliance * force_mean;
-  rest_ = mean_ - of_modes * force_mean;
+  mean_ = receptance(0).real() * force.mean().head<2>();
 }
 
 ForcedVibration::Free ForcedVibration::free_at(double turn_rad) const {
@@ -90,7 +84,7 @@ Eigen::Matrix2Xd ForcedVibration::per_depth(double from_rad, int count) const {
   Eigen::Matrix2Xd result(2, count);
   Eigen::Index i = 0;
   walk(from_rad, count, [&](double turn, const Free& free) {
-    result.col(i++) = sum_at(driven_, period_rad_, turn) + 2 * (shape_ * free.state).real() + rest_;
+    result.col(i++) = sum_at(driven_, period_rad_, turn) + 2 * (shape_ * free.state).real();
   });
   return result;
 }
@@ -101,7 +95,7 @@ Eigen::Matrix2Xd ForcedVibration::integrals(double from_rad, int count) const {
   Eigen::Index i = 0;
   walk(from_rad, count, [&](double turn, const Free& free) {
     result.col(i++) = integral_to(driven_, period_rad_, turn) +
-                      2 * (shape_ * (free.state - free.jumped).cwiseQuotient(rate_)).real() + rest_ * turn;
+                      2 * (shape_ * (free.state - free.jumped).cwiseQuotient(rate_)).real();
   });
   return result;
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <vector>
 
 #include "milling/cutting_force.h"
@@ -15,10 +14,9 @@ namespace stablecut::milling {
 /// force is known in closed form.
 class ForcedVibration {
  public:
-  /// `force` as force_cycle(), turned by the cutter's feed angle into the structure's frame. With a static
-  /// compliance, m/N in the structure's x and y, the mean deflection is that, whatever the modes say.
+  /// `force` as force_cycle(), turned by the cutter's feed angle into the structure's frame.
   ForcedVibration(const TipStructure& structure, const Cutter& cutter, const ForceCycle& force,
-                  double revolutions_per_s, const std::optional<Eigen::Matrix2d>& static_compliance);
+                  double revolutions_per_s);
 
   double period_rad() const { return period_rad_; }
   /// Displacement at a turn, m, in the cut's frame: along the feed and normal to it.
@@ -51,7 +49,6 @@ class ForcedVibration {
   Eigen::Matrix2Xcd shape_;  // [2 x modes], in the cut's frame
   std::vector<Break> breaks_;
   std::vector<TurningArc<2>> driven_;  // while an arc is in cut
-  Eigen::Vector2d rest_;               // the static compliance's part that the modes lack, per depth
   Eigen::Vector2d mean_;
 };
 

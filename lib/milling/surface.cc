@@ -77,15 +77,13 @@ bool leaves_equal_chips(const Cutter& cutter, const CuttingLoad& load) {
 
 SurfaceChart surface_chart(const TipStructure& structure, const Cutter& cutter, const CuttingLoad& load,
                            const std::vector<double>& revolutions_per_s, const std::vector<double>& depths_m,
-                           const StabilityChart& chart,
-                           const std::optional<Eigen::Matrix2d>& static_compliance, int threads,
-                           const Progress& progress) {
+                           const StabilityChart& chart, int threads, const Progress& progress) {
   const ForceCycle force = force_cycle(cutter, load);
   SurfaceChart result(depths_m.size(), {revolutions_per_s.size(), std::nullopt});
   parallel_for(
       revolutions_per_s.size(), threads,
       [&](std::size_t s) {
-        const ForcedVibration vibration(structure, cutter, force, revolutions_per_s[s], static_compliance);
+        const ForcedVibration vibration(structure, cutter, force, revolutions_per_s[s]);
         const int samples = samples_of(structure, revolutions_per_s[s], force.period_rad);
         // The motion under straight teeth is in proportion to the depth.
         std::optional<SurfacePoint> per_depth;

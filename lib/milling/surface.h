@@ -32,8 +32,6 @@ bool leaves_equal_chips(const Cutter& cutter, const CuttingLoad& load);
 using SurfaceChart = std::vector<std::vector<std::optional<SurfacePoint>>>;
 SurfaceChart surface_chart(const TipStructure& structure, const Cutter& cutter, const CuttingLoad& load,
                            const std::vector<double>& revolutions_per_s, const std::vector<double>& depths_m,
-                           const StabilityChart& chart,
-                           const std::optional<Eigen::Matrix2d>& static_compliance, int threads,
-                           const Progress& progress = {});
+                           const StabilityChart& chart, int threads, const Progress& progress = {});
 
 }  // namespace stablecut::milling

@@ -17,16 +17,6 @@ using Complex = std::complex<double>;
 
 const CuttingLoad kLoad{0.1e-3, 0, 20e3, 30e3, 0, {}};
 
-Cutter cutter_of(int teeth, bool up, double immersion) {
-  Cutter cutter;
-  cutter.teeth = teeth;
-  cutter.kt_n_per_m2 = 800e6;
-  cutter.kr_n_per_m2 = 300e6;
-  cutter.diameter_m = 16e-3;
-  set_immersion(cutter, up, immersion);
-  return cutter;
-}
-
 // Coefficient of exp(i k turn) in the Fourier series of the force per depth, feed and normal.
 Eigen::Vector2cd force_harmonic(const ForceCycle& cycle, int k) {
   Eigen::Vector2cd sum = Eigen::Vector2cd::Zero();
@@ -52,11 +42,11 @@ TEST_CASE("forced vibration is the harmonic sum of the receptance, and the surfa
     const int teeth = n < 4 ? 1 : n - 2;
     const TipStructure structure =
         n < 4 ? tip_structure(fixtures::oscillator({"y"})) : tip_structure(fixtures::coupled_modes(n - 2, n));
-    Cutter cutter = cutter_of(teeth, n % 2 == 0, n == 3 || n == 6 ? 1 : 0.2);
+    Cutter cutter = fixtures::benchmark_cutter(n % 2 == 0, n == 3 || n == 6 ? 1 : 0.2, teeth);
     if (n > 5) cutter.feed_angle_rad = 0.7;
     const double speed = numerics::uniform(generator, 20, 200), omega = kTwoPi * speed;
     const ForceCycle cycle = force_cycle(cutter, kLoad);
-    const ForcedVibration vibration(structure, cutter, cycle, speed, std::nullopt);
+    const ForcedVibration vibration(structure, cutter, cycle, speed);
     const Eigen::Matrix2d feed = Eigen::Rotation2Dd(cutter.feed_angle_rad).toRotationMatrix();
     const auto moved = [&](Complex s, const Eigen::Vector2cd& force) -> Eigen::Vector2cd {
       const Eigen::Vector2cd own = feed * force;
@@ -89,12 +79,12 @@ TEST_CASE("forced vibration is the harmonic sum of the receptance, and the surfa
 
 TEST_CASE("a helical edge is many straight ones") {
   for (const double lag : {150.0, -90.0}) {
-    Cutter cutter = cutter_of(3, false, 0.3);
+    Cutter cutter = fixtures::benchmark_cutter(false, 0.3, 3);
     const TipStructure structure = tip_structure(fixtures::coupled_modes(4, 2));
     const ForceCycle cycle = force_cycle(cutter, kLoad);
-    const ForcedVibration straight(structure, cutter, cycle, 60, std::nullopt);
+    const ForcedVibration straight(structure, cutter, cycle, 60);
     cutter.lag_rad_per_m = lag;
-    const ForcedVibration helical(structure, cutter, cycle, 60, std::nullopt);
+    const ForcedVibration helical(structure, cutter, cycle, 60);
     constexpr double kDepth = 5e-3;
     constexpr int kEdges = 2000;
     for (const double turn : {-1.0, 0.0, 0.7, 2.5}) {
@@ -117,10 +107,10 @@ TEST_CASE("a helical edge is many straight ones") {
 
 TEST_CASE("a plain simulation of coupled modes settles to the forced vibration") {
   const TipStructure structure = tip_structure(fixtures::coupled_modes(15, 8));
-  const Cutter cutter = cutter_of(2, false, 0.25);
+  const Cutter cutter = fixtures::benchmark_cutter(false, 0.25, 2);
   constexpr double kSpeed = 75, kDepth = 1e-3;
   const ForceCycle cycle = force_cycle(cutter, kLoad);
-  const ForcedVibration vibration(structure, cutter, cycle, kSpeed, std::nullopt);
+  const ForcedVibration vibration(structure, cutter, cycle, kSpeed);
   // Exact steps of each mode under the force at the middle of the step, until what was there at the start is
   // gone.
   constexpr int kSteps = 16000;
@@ -132,7 +122,7 @@ TEST_CASE("a plain simulation of coupled modes settles to the forced vibration")
   double largest = 0, error = 0;
   const double scale = vibration.displacements(kDepth, 64).colwise().norm().maxCoeff();
   for (int i = 0; i < periods * kSteps; ++i) {
-    const Eigen::Vector2d force = force_at(cycle, 0, kDepth, (i + 0.5) * step).head<2>();
+    const Eigen::Vector2d force = kDepth * sum_at(cycle.arcs, cycle.period_rad, (i + 0.5) * step).head<2>();
     const Eigen::VectorXcd drive = structure.psi_l.transpose() * force(structure.axes);
     q = growth.cwiseProduct(q) +
         (growth.array() - 1).matrix().cwiseProduct(drive).cwiseQuotient(structure.lambda);
@@ -151,11 +141,10 @@ TEST_CASE("at a resonance the surface error changes its sign, up and down millin
   const TipStructure structure = tip_structure(fixtures::oscillator({"y"}));
   const double natural = std::abs(structure.lambda[0]) / kTwoPi;
   const auto error = [&](bool up, double share) {
-    Cutter cutter = cutter_of(1, up, 0.05);
+    Cutter cutter = fixtures::benchmark_cutter(up, 0.05, 1);
     cutter.kr_n_per_m2 = 0;
     const ForceCycle cycle = force_cycle(cutter, {0.1e-3, 0, 0, 0, 0, {}});
-    return *surface_of(ForcedVibration(structure, cutter, cycle, share * natural, std::nullopt), cutter, 1e-3,
-                       64)
+    return *surface_of(ForcedVibration(structure, cutter, cycle, share * natural), cutter, 1e-3, 64)
                 .location_error_m;
   };
   // The tangential force pushes the tip towards +Y: below a resonance into the wall of up milling, away from
@@ -164,22 +153,4 @@ TEST_CASE("at a resonance the surface error changes its sign, up and down millin
   CHECK(error(false, 0.9) > 0);
   CHECK(error(true, 1.1) > 0);
   CHECK(error(false, 1.1) < 0);
-}
-
-TEST_CASE("a static compliance takes the place of the modes' own") {
-  const TipStructure structure = tip_structure(fixtures::coupled_modes(3, 4));
-  Cutter cutter = cutter_of(2, false, 0.3);
-  cutter.feed_angle_rad = 0.4;
-  const ForceCycle cycle = force_cycle(cutter, kLoad);
-  Eigen::Matrix2d compliance;
-  compliance << 3e-6, 1e-6, 1e-6, 2e-6;
-  const ForcedVibration plain(structure, cutter, cycle, 60, std::nullopt);
-  const ForcedVibration soft(structure, cutter, cycle, 60, compliance);
-  const Eigen::Matrix2d feed = Eigen::Rotation2Dd(0.4).toRotationMatrix();
-  const Eigen::Vector2d mean = feed.transpose() * compliance * feed * cycle.mean().head<2>() * 1e-3;
-  CHECK((soft.mean(1e-3) - mean).norm() < 1e-12 * mean.norm());
-  const SurfacePoint a = surface_of(plain, cutter, 1e-3, 128), b = surface_of(soft, cutter, 1e-3, 128);
-  CHECK(b.peak_vibration_m == Approx(a.peak_vibration_m).epsilon(1e-9));
-  CHECK(*b.location_error_m - *a.location_error_m ==
-        Approx((soft.mean(1e-3) - plain.mean(1e-3)).y()).epsilon(1e-9));
 }

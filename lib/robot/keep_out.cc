@@ -80,14 +80,6 @@ double nearest_to_box(const Segment& segment, const Box& box) {
   return least > 0 ? std::sqrt(least) : 0 - depth_in_box(segment, box);
 }
 
-Eigen::Isometry3d link_frame(const Robot& robot, const RobotPose& pose, int j) {
-  const Eigen::Vector3d z = robot.joints[j].theta_sign * pose.axis.col(j), x = pose.frame_x.col(j);
-  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
-  frame.linear() << x, z.cross(x), z;
-  frame.translation() = pose.point.col(j);
-  return frame;
-}
-
 // How far out of the z axis a capsule reaches in its frame.
 double swept_radius(const Capsule& capsule) {
   return std::max(capsule.from_m.head<2>().norm(), capsule.to_m.head<2>().norm()) + capsule.radius_m;

@@ -69,6 +69,14 @@ Matrix6d jacobian(const RobotPose& pose, const Eigen::Vector3d& point) {
   return result;
 }
 
+Eigen::Isometry3d link_frame(const Robot& robot, const RobotPose& pose, int j) {
+  const Eigen::Vector3d z = robot.joints[j].theta_sign * pose.axis.col(j), x = pose.frame_x.col(j);
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  frame.linear() << x, z.cross(x), z;
+  frame.translation() = pose.point.col(j);
+  return frame;
+}
+
 double singularity_margin(const RobotPose& pose) {
   return Eigen::JacobiSVD<Matrix6d>(jacobian(pose, pose.tool.translation())).singularValues()[kJoints - 1];
 }

@@ -29,6 +29,9 @@ Matrix6d jacobian(const RobotPose& pose, const Eigen::Vector3d& point);
 /// Its first three rows.
 Eigen::Matrix<double, 3, kJoints> translational_jacobian(const RobotPose& pose, const Eigen::Vector3d& point);
 
+/// The frame of joint j's link in the base frame: z along the axis by the table's sense, x as in the table.
+Eigen::Isometry3d link_frame(const Robot& robot, const RobotPose& pose, int j);
+
 /// The least singular value of the Jacobian at the tool point, lengths in m: 0 at a singular pose.
 double singularity_margin(const RobotPose& pose);
 

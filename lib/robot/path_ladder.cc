@@ -57,6 +57,13 @@ bool full_turn(const std::optional<Range>& interval) {
 
 }  // namespace
 
+double least_cost(const PointRungs& rungs) {
+  double least = kInfinity;
+  for (const BranchRungs& branch : rungs)
+    least = std::min(least, *std::min_element(branch.cost.begin(), branch.cost.end()));
+  return least;
+}
+
 StiffnessTask point_task(const PathTask& task, const PathFrames& frames, std::size_t point) {
   StiffnessTask at = task.stiffness;
   if (at.force_n && task.force_in_feed) {
@@ -75,10 +82,7 @@ PathModel::PathModel(const Robot& robot, const PathTask& task)
       copies_(copies_of(robot, task.limit_margin_rad)),
       coupled_copies_(any_coupled_copies(robot, copies_)) {
   if (task.path.empty()) throw InvalidArgument("path: empty: expected points");
-  if (task.stiffness.index->needs_force && !task.stiffness.force_n) {
-    throw InvalidArgument(std::string("force: missing: expected a force for the index ") +
-                          task.stiffness.index->name);
-  }
+  check_force(task.stiffness);
   const auto to_home = inverse_.home_from_base().linear();
   for (std::size_t i = 0; i < size(); ++i) {
     const StiffnessTask at = point_task(task, frames_, i);
@@ -178,7 +182,7 @@ void PathModel::take_branch(const ArmLanes& lanes, int branch, int rung, double 
   store_lowest(lanes, branch, angles);
   const std::uint32_t copies = allowed_copies(angles);
   if (copies == 0 || !std::isfinite(cost)) return;
-  if (robot_.keep_out_radius_m > 0) {
+  if (robot_.keeps_out()) {
     const RobotPose pose = robot_pose(robot_, Eigen::Map<const JointAngles>(angles));
     if (keep_out_margin_m(robot_, pose) < 0) return;
   }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/units.h"
 #include "robot/arm_springs.h"
 #include "robot/path_task.h"
 
@@ -51,6 +52,12 @@ struct BranchRungs {
 };
 inline constexpr unsigned kAllBranches = 0xFF;
 using PointRungs = std::array<BranchRungs, kBranches>;
+
+/// The least cost of a point by itself; infinite where nothing is allowed.
+double least_cost(const PointRungs& rungs);
+
+/// The step of the ladders that paths are searched on, rad.
+inline constexpr double kLadderStep = kPi / 180;
 
 /// The least cost of each rung of a ladder over all branches, as far as it is known: what a later pass over
 /// the same ladder need not solve again.

@@ -11,7 +11,6 @@
 namespace stablecut::robot {
 namespace {
 
-constexpr double kBoundStep = kPi / 180;       // rad; the ladder of path searches
 constexpr std::size_t kMostBoundPoints = 200;  // of a path whose worst point counts
 constexpr double kBoundsShare = 0.3;           // of the progress
 
@@ -21,25 +20,17 @@ PathTask placed_task(const PathTask& task, const Placement& placement, const Eig
   return there;
 }
 
-// The least cost at a point by itself, on the ladder; infinite where nothing is allowed.
-double least_cost(const PathModel& model, const Ladder& ladder, std::size_t point, PointRungs& rungs) {
-  model.fill(ladder, point, kAllBranches, rungs);
-  double least = kUnreached;
-  for (const BranchRungs& branch : rungs)
-    least = std::min(least, *std::min_element(branch.cost.begin(), branch.cost.end()));
-  return least;
-}
-
 // Some points bound the largest cost, but all are needed for the mean.
 double bound_of(const Robot& robot, const PathTask& task) {
   const PathModel model(robot, task);
-  const Ladder ladder = model.whole_ladder(kBoundStep);
+  const Ladder ladder = model.whole_ladder(kLadderStep);
   const std::size_t count = task.mean_objective ? model.size() : std::min(model.size(), kMostBoundPoints);
   PointRungs rungs;
   double largest = 0, sum = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t point = count > 1 ? i * (model.size() - 1) / (count - 1) : 0;
-    const double least = least_cost(model, ladder, point, rungs);
+    model.fill(ladder, point, kAllBranches, rungs);
+    const double least = least_cost(rungs);
     if (std::isinf(least)) return kUnreached;
     largest = std::max(largest, least);
     sum += least;

@@ -11,7 +11,6 @@
 namespace stablecut::robot {
 namespace {
 
-constexpr double kLadderStep = kPi / 180;
 constexpr double kTieSmoothness = 1;      // of the turns' weight where the largest cost is settled
 constexpr double kMeanSmoothness = 1e-4;  // the same beside the mean
 constexpr double kSameCost = 1e-9;        // relative: branches that are as good
@@ -118,12 +117,11 @@ class Search {
   double typical_cost() const {
     const Ladder ladder = model_.whole_ladder(kCoarseStep);
     const std::size_t count = std::min(model_.size(), kSomePoints);
-    std::vector<double> least(count, kUnreached);
+    std::vector<double> least(count);
     parallel_for(count, threads_, [&](std::size_t s) {
       PointRungs rungs;
       model_.fill(ladder, s * (model_.size() - 1) / std::max<std::size_t>(1, count - 1), kAllBranches, rungs);
-      for (const BranchRungs& branch : rungs)
-        least[s] = std::min(least[s], *std::min_element(branch.cost.begin(), branch.cost.end()));
+      least[s] = least_cost(rungs);
     });
     std::erase_if(least, [](double cost) { return !std::isfinite(cost); });
     if (least.empty()) return 1;

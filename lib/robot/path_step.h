@@ -140,8 +140,10 @@ class RungStep {
         for (int j = 0; j < kJoints; ++j) {
           double angle = before_.angle[j][k];
           if (std::isinf(bundle.least)) low[j] = high[j] = angle;
-          if (copies_.count[j] > 1 && std::abs(angle - low[j]) > kPi)
+          if (copies_.count[j] > 1 && std::abs(angle - low[j]) > kPi) {
             angle += angle < low[j] ? kTwoPi : -kTwoPi;
+            bundle.both_ends[j] = true;
+          }
           low[j] = std::min(low[j], angle);
           high[j] = std::max(high[j], angle);
         }

@@ -30,10 +30,7 @@ PoseScanner::PoseScanner(const Robot& robot, const PoseTask& task)
       inverse_(robot),
       springs_(arm_springs(robot, task.elasticity, inverse_)),
       coaxial_(tool_alignment(robot).coaxial()) {
-  if (task.stiffness.index->needs_force && !task.stiffness.force_n) {
-    throw InvalidArgument(std::string("force: missing: expected a force for the index ") +
-                          task.stiffness.index->name);
-  }
+  check_force(task.stiffness);
   const double along = robot.tool_in_frame6().linear()(2, 2) > 0 ? 1 : -1;
   turn_sense_ = along * robot.joints[5].theta_sign;
   const auto to_home = inverse_.home_from_base().linear();

@@ -96,6 +96,9 @@ struct Robot {
   std::optional<double> floor_m;    ///< z in the base frame below which nothing may be
   std::vector<Box> keep_out_boxes;  ///< base frame
 
+  /// Whether there is anything to keep out of.
+  bool keeps_out() const { return keep_out_radius_m > 0 || floor_m || !keep_out_boxes.empty(); }
+
   Eigen::Isometry3d tool_in_frame6() const { return flange * tool; }
   /// By how much joint j turns: its controller angle, with what a coupling adds to it.
   double turn_rad(int j, const JointAngles& angles) const;

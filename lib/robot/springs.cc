@@ -83,10 +83,7 @@ double weight_load(const Robot& robot, const RobotPose& pose, const Spring& spri
   for (int j = spring.kind == Spring::Kind::kBase ? 0 : spring.joint; j < kJoints; ++j) {
     const auto& mass = robot.joints[j].mass;
     if (!mass) continue;
-    const Eigen::Vector3d x = pose.frame_x.col(j), z = robot.joints[j].theta_sign * pose.axis.col(j);
-    Eigen::Matrix3d frame;
-    frame << x, z.cross(x), z;
-    load += axis.load({0, 0, -mass->mass_kg * kStandardGravity}, pose.point.col(j) + frame * mass->center_m,
+    load += axis.load({0, 0, -mass->mass_kg * kStandardGravity}, link_frame(robot, pose, j) * mass->center_m,
                       Eigen::Vector3d::Zero());
   }
   return load;

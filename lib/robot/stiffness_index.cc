@@ -141,6 +141,11 @@ bool StiffnessTask::feels_tool_turn() const {
   return index->needs_force && force_in_tool && !(force_n && force_n->head<2>().isZero(0));
 }
 
+void check_force(const StiffnessTask& task) {
+  if (task.index->needs_force && !task.force_n)
+    throw InvalidArgument(std::string("force: missing: expected a force for the index ") + task.index->name);
+}
+
 Eigen::Vector3d force_in_base(const StiffnessTask& task, const Eigen::Matrix3d& tool_rotation) {
   if (!task.force_n) throw InvalidArgument("force: missing: expected a force");
   return task.force_in_tool ? Eigen::Vector3d(tool_rotation * *task.force_n) : *task.force_n;

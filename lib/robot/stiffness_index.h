@@ -77,6 +77,9 @@ struct StiffnessTask {
   }
 };
 
+/// Throws InvalidArgument when the index needs a force and the task has none.
+void check_force(const StiffnessTask& task);
+
 /// The task's force in the base frame, N, for a tool of that orientation (its axes in the base frame). Throws
 /// InvalidArgument when the task has none.
 Eigen::Vector3d force_in_base(const StiffnessTask& task, const Eigen::Matrix3d& tool_rotation);

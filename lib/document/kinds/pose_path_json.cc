@@ -135,8 +135,6 @@ Json pose_path_to_json(const PosePathDocument& document, const robot::Robot& rob
       json["branch"] = part.branch;
       json["turn_deg"] = document_degrees(pose.turn + frames.redundancy[0]);
       json["joint_speed_deg_per_s"] = joint_angles_to_json(pose.speed);
-      if (!document.keep_out_margin_m.empty())
-        json["keep_out_margin_mm"] = mm_from_metres(document.keep_out_margin_m[at]);
       points.push_back(std::move(json));
     }
   }
@@ -155,6 +153,7 @@ Json pose_path_to_json(const PosePathDocument& document, const robot::Robot& rob
   result["joint_speed_limit_deg_per_s"] = std::move(speeds);
   result["limit_margin_deg"] = document_degrees(document.task.limit_margin_rad);
   result["singularity_margin"] = document.task.singularity_margin;
+  result["keep_out"] = keep_out_to_json(robot);
   result["points"] = std::move(points);
   return result;
 }

@@ -15,7 +15,6 @@ struct PosePathDocument {
   const robot::PathTask& task;
   const robot::PathSearch& search;
   std::vector<robot::PoseReport> reports;  ///< of all poses, part after part
-  std::vector<double> keep_out_margin_m;   ///< likewise; empty where the robot keeps out of nothing
   std::size_t worst_part = 0;              ///< the part that holds the worst point
   robot::WorstPoint worst;
 };
