@@ -64,6 +64,9 @@ class SdmLobes : public cli::Tool {
     cli::begin_group(app, "The chart");
     app.add_flag("--limit-only", limit_only_, "Write the limits only, no grid of spectral radii");
     surface_.declare(app);
+    add_file_option(app, "--static", surface_.pose_path,
+                    "Pose document (best-pose): how the robot yields below the band of the taps");
+    surface_.declare_static(app);
 
     cli::begin_group(app, "What to run");
     run_.declare(app);
@@ -83,15 +86,20 @@ class SdmLobes : public cli::Tool {
 
   void run() override {
     check_usage();
-    cut_.read([this](const std::string& path, cli::InputForm form) { return read_input(path, form); });
-    check_method();
-    const milling::RunRequest request = run_.request(cut_.cut());
+    const CutOptions::Reader reader = [this](const std::string& path, cli::InputForm form) {
+      return read_input(path, form);
+    };
+    cut_.read(reader);
+    cut_.check_method(method_);
+    surface_.check(cut_.cut(), method_, !limit_only_ && !parts_.used(), 1 + more_tables_.size());
+    const milling::RunRequest asked = run_.request(cut_.cut());
     const document::Input table = read_main_input(cli::InputForm::kJson);
     const dynamics::ModalModel all_modes = document::modal_table_from_json(table.document, table.source);
     const dynamics::ModalModel model = modes_.model(all_modes, table.source.name);
     std::vector<milling::TipStructure> structures = {
         structure_of(model, table.source, [this](const std::string& text) { warn(text); })};
     const milling::Cutter& cutter = cut_.cut().cutter;
+    const milling::RunRequest request = surface_.completed(asked, model, reader);
 
     document::LobesDocument lobes;
     lobes.scheme = {method_ == "sdm" ? milling::StabilityMethod::kSemiDiscretization
@@ -106,11 +114,10 @@ class SdmLobes : public cli::Tool {
         {"sha256", cli::sha256(table.source.text)}, {"modes", modes_.listed()}, {"seed", seed_.value_or(1)}};
     parts_.take_part(of, lobes);
 
-    surface_.check(cut_.cut(), lobes.scheme, !limit_only_ && !parts_.used(), structures.size());
     const ChartAxes axes(lobes);
     if (parts_.paths.empty()) {
       compute_chart(structures, axes, lobes);
-      surface_.compute(structures.front(), cut_.cut(), axes, threads(), quiet(), lobes);
+      surface_.compute(structures.front(), cut_.cut(), axes, request, threads(), quiet(), lobes);
       if (samples_) compute_samples(model, axes, lobes);
     } else {
       std::vector<document::Input> parts;
@@ -142,13 +149,6 @@ class SdmLobes : public cli::Tool {
     cli::refuse_if(parts_.shard && !parts_.paths.empty(), "--shard: expected either --shard or --merge");
     cli::refuse_if(parts_.shard && (per_mode_ || !points_path_.empty()),
                    "--shard: expected --per-mode and --points with --merge, not with a part");
-  }
-
-  void check_method() const {
-    const milling::Cutter& cutter = cut_.cut().cutter;
-    cli::refuse_if(method_ == "sdm" &&
-                       (!cutter.equal_pitch() || cutter.lag_rad_per_m != 0 || cutter.damping_n_per_m > 0),
-                   "--method: sdm: expected straight teeth of equal pitch without process damping");
   }
 
   void read_more_tables(const std::string& first, std::vector<milling::TipStructure>& structures,

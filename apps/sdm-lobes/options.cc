@@ -57,6 +57,13 @@ void CutOptions::read(const Reader& read_input) {
   }
 }
 
+void CutOptions::check_method(const std::string& method) const {
+  const milling::Cutter& cutter = cut_.cutter;
+  cli::refuse_if(
+      method == "sdm" && (!cutter.equal_pitch() || cutter.lag_rad_per_m != 0 || cutter.damping_n_per_m > 0),
+      "--method: sdm: expected straight teeth of equal pitch without process damping");
+}
+
 document::Json CutOptions::as_used(const Range& speed_rpm, const Range& depth_mm) const {
   document::Json used = document_;
   used.erase("format");

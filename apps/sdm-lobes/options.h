@@ -28,6 +28,8 @@ class CutOptions {
   /// an option's value is wrong, DataError for what a file holds.
   void read(const Reader& read_input);
 
+  /// Throws WrongUsage where the method is not one for this cutter.
+  void check_method(const std::string& method) const;
   const document::CutDocument& cut() const { return cut_; }
   /// The document with the chart that is computed in its place, without format and provenance.
   document::Json as_used(const Range& speed_rpm, const Range& depth_mm) const;

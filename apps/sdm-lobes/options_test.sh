@@ -111,10 +111,41 @@ check_jq "a surface where the cut is stable, and only there" surface.json '[.spe
 check_jq "straight teeth: in proportion to the depth" surface.json '. as $d | .surface | [.location_error_um, .rms_vibration_um, .mean_normal_um]
   | all(. as $g | [range($d.speed_rpm | length)] | all(. as $s | [range($d.depth_mm | length)
     | select($d.depth_mm[.] > 0 and $g[.][$s] != null) | $g[.][$s] / $d.depth_mm[.]] | length < 2 or (max - min | fabs) < 1e-9 * (max | fabs)))'
-for change in '.runout_um = [3, -3]' '.pitch_deg = [170, 190]' '.process_damping_n_per_m = 1e3' 'del(.feed_per_tooth_mm)'; do
-  jq "$change" fed.json >refused.json
-  refused 64 '--surface: expected' sdm-lobes "$table" --cut refused.json "${small[@]}" --surface
+# Teeth that hardly differ leave hardly another surface, by another way of computing it.
+for change in '.runout_um = [1e-4, -1e-4]' '.pitch_deg = [179.9999, 180.0001]' '.process_damping_n_per_m = 1e-3'; do
+  jq "$change" fed.json >alike.json
+  sdm-lobes "$table" --cut alike.json "${small[@]}" --surface -o alike-out.json
+  check_jq "hardly $change is none" alike-out.json '[.surface, $one[0].surface] | [.[] | [.location_error_um, .rms_vibration_um, .mean_normal_um]]
+    | . as $g | [$g[] | flatten] | transpose | map(select(.[0] != null and .[1] != null)) | length > 3 and (($g[1] | flatten | map(select(. != null) | fabs) | max) as $most
+    | all((.[0] - .[1] | fabs) < 1e-3 * $most))' --slurpfile one surface.json
 done
+for option in --surface '--max-surface-error 20'; do
+  # shellcheck disable=SC2086
+  refused 64 "${option%% *}: expected feed_per_tooth_mm" sdm-lobes "$table" --cut "$cut" "${small[@]}" $option
+done
+refused 64 '--surface: expected with one modal table only' sdm-lobes "$table" "$table" --cut fed.json "${small[@]}" --surface
+sdm-lobes "$table" --cut fed.json "${small[@]}" --limit-only --max-surface-error 6 -o bounded.json
+check_jq "the best points leave an allowed surface" bounded.json '.what_to_run.best | length > 0 and all(.surface.location_error_um | fabs <= 6.0001)'
+check_jq "which others do not" surface.json '.what_to_run.best | any(.surface.location_error_um | fabs > 6.0001)'
+jq -n '{format: "stablecut/pose/1", evaluated: [{compliance_um_per_n: [[0.5, 0.1, 0], [0.1, 0.3, 0], [0, 0, 0.2]]}]}' >pose.json
+sdm-lobes "$table" --cut fed.json "${small[@]}" --limit-only --max-surface-error 1e9 -o without.json
+for angle in 0 90; do
+  sdm-lobes "$table" --cut fed.json "${small[@]}" --limit-only --max-surface-error 1e9 --static pose.json --static-angle $angle -o static-$angle.json
+done
+# By how much the pose moves the tip of the first point on, from the same mean force; the taps' z is against the tool's.
+check_jq "a pose's compliance under the mean force, in the frame of the taps" static-0.json '
+  def moved: [.what_to_run.best[0].surface | .mean_feed_um, .mean_normal_um];
+  (moved) as $a | ($turned[0] | moved) as $b | ($none[0] | moved) as $n
+  | [$a[0] - $n[0], $a[1] - $n[1]] as $p | [$b[0] - $n[0], $b[1] - $n[1]] as $q
+  # C at 0: [[0.5, -0.1], [-0.1, 0.3]], at 90: [[0.3, 0.1], [0.1, 0.5]].
+  | ((0.3 * $p[0] + 0.1 * $p[1]) / 0.14) as $x | ((0.1 * $p[0] + 0.5 * $p[1]) / 0.14) as $y
+  | (0.3 * $x + 0.1 * $y - $q[0] | fabs) < 1e-9 and (0.1 * $x + 0.5 * $y - $q[1] | fabs) < 1e-9 and ($x | fabs) > 1' --slurpfile turned static-90.json --slurpfile none without.json
+refused 64 '--static: expected with --surface' sdm-lobes "$table" --cut fed.json --static pose.json
+refused 64 '--static-angle: expected with --static' sdm-lobes "$table" --cut fed.json --surface --static-angle 3
+jq '.evaluated += .evaluated' pose.json >two-poses.json
+refused 65 'two-poses.json: /evaluated: a list of 2: expected one pose' sdm-lobes "$table" --cut fed.json --surface --static two-poses.json
+jq 'del(.evaluated[0].compliance_um_per_n[2])' pose.json >short-pose.json
+refused 65 'short-pose.json: /evaluated/0/compliance_um_per_n' sdm-lobes "$table" --cut fed.json --surface --static short-pose.json
 refused 64 '--surface: expected a chart with its grid' sdm-lobes "$table" --cut fed.json --surface --limit-only
 jq '.runout_um = [1, 2, 3]' fed.json >refused.json
 refused 65 '/runout_um: a list of 3: expected 2 numbers, one for each tooth' sdm-lobes "$table" --cut refused.json "${small[@]}"

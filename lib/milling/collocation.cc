@@ -8,8 +8,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "milling/arc_polynomials.h"
-#include "numerics/exponential_moments.h"
-#include "numerics/legendre.h"
+#include "milling/piece_rule.h"
 
 namespace stablecut::milling {
 namespace {
@@ -26,44 +25,6 @@ constexpr int kShortPiecePoints = 5;
 // times kNodesPerRadian.
 constexpr int kSpareNodes = 4;
 constexpr double kNodesPerRadian = 0.6;
-
-// The Gauss points of pieces of one length, and how a mode responds to a force through them.
-struct PieceRule {
-  double length_s;
-  numerics::GaussRule rule;
-  Eigen::MatrixXd transform;  // Legendre coefficients from values at the points
-  Eigen::VectorXd places;     // [points + 1] the points and the end
-  Eigen::MatrixXd legendre;   // [points + 1 x polynomials] there
-
-  PieceRule(double length, int points)
-      : length_s(length),
-        rule(numerics::gauss_legendre(points)),
-        transform(numerics::legendre_transform(rule)) {}
-
-  // [points]: the modal coordinate at a place in [-1, 1] of the piece, per force value at the points.
-  Eigen::RowVectorXcd response(Complex lambda, double place) const {
-    const numerics::ExponentialMoments moments(lambda * (length_s / 2), rule.node.size());
-    return (length_s / 2) * (moments.at(place).transpose() * transform);
-  }
-
-  // [points + 1 x points]: the same at each point and at the end.
-  Eigen::MatrixXcd responses(Complex lambda) {
-    const Eigen::Index n = rule.node.size();
-    const numerics::ExponentialMoments moments(lambda * (length_s / 2), n);
-    if (legendre.cols() < moments.legendre_count()) {
-      places.resize(n + 1);
-      places << rule.node, 1.0;
-      legendre.resize(n + 1, moments.legendre_count());
-      for (Eigen::Index i = 0; i <= n; ++i)
-        legendre.row(i) = numerics::legendre_values(places[i], legendre.cols()).transpose();
-    }
-    const Eigen::MatrixXcd at_places = moments.at(places, legendre);
-    Eigen::MatrixXcd result(n + 1, n);
-    result.real() = (length_s / 2) * at_places.real() * transform;
-    result.imag() = (length_s / 2) * at_places.imag() * transform;
-    return result;
-  }
-};
 
 // A piece with its place in time, its nodes and their rows.
 struct PlacedPiece {
@@ -91,7 +52,7 @@ class Builder {
       const std::size_t at = rule_of(length_s, points_of(length_of(piece) / longest, points));
       PlacedPiece placed{piece.from_rad / angular_speed_, 0, at, result_.nodes.size(), 0, row_count(), 0};
       placed.end_s = placed.start_s + length_s;
-      const numerics::GaussRule& rule = rules_[at].rule;
+      const numerics::GaussRule& rule = rules_[at].rule();
       for (Eigen::Index i = 0; i < rule.node.size(); ++i) {
         const double share = (rule.node[i] + 1) / 2;
         const double turn = piece.from_rad + share * length_of(piece);
@@ -173,8 +134,7 @@ class Builder {
 
   std::size_t rule_of(double length_s, int points) {
     const auto known = std::find_if(rules_.begin(), rules_.end(), [&](const PieceRule& other) {
-      return std::abs(other.length_s - length_s) < kSameLength * period_s_ &&
-             other.rule.node.size() == points;
+      return std::abs(other.length() - length_s) < kSameLength * period_s_ && other.points() == points;
     });
     if (known != rules_.end()) return known - rules_.begin();
     rules_.emplace_back(length_s, points);
@@ -185,7 +145,8 @@ class Builder {
     CollocationArc arc;
     for (std::size_t node = placed.first_node; node < placed.end_node; ++node) {
       arc.nodes.push_back(node);
-      arc.place.push_back(rules_[placed.rule].rule.node[static_cast<Eigen::Index>(node - placed.first_node)]);
+      arc.place.push_back(
+          rules_[placed.rule].rule().node[static_cast<Eigen::Index>(node - placed.first_node)]);
     }
     result_.arcs.push_back(std::move(arc));
   }

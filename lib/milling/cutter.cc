@@ -223,6 +223,14 @@ CutSchedule cut_schedule(const Cutter& cutter, double revolutions_per_s, double 
   return cutter.equal_pitch() ? schedule_of_equal_pitch(pass) : schedule_of_unequal_pitch(pass);
 }
 
+std::vector<CutPiece> way_of_tooth(const Cutter& cutter, double revolutions_per_s, double depth_m) {
+  const Pass pass(cutter, revolutions_per_s, depth_m);
+  std::vector<CutPiece> pieces;
+  for (std::size_t i = 0; i + 1 < pass.events_rad.size(); ++i)
+    pieces.push_back(pass.piece(pass.events_rad[i], pass.events_rad[i + 1], {0.0}));
+  return pieces;
+}
+
 HelicalArc helical_arc(const Cutter& cutter, double largest_depth_m) {
   const Pass pass(cutter, 1, largest_depth_m);
   return {pass.first_rad, std::min(pass.last_rad - pass.first_rad, cutter.mean_pitch_rad())};

@@ -78,6 +78,10 @@ CutSchedule cut_schedule(const Cutter& cutter, double revolutions_per_s, double 
 /// order of the teeth, which is that of the beginnings: the first one's surface was cut in the period before.
 CutSchedule tooth_arcs(const Cutter& cutter, double revolutions_per_s);
 
+/// The way of one tooth through the cut at a speed and a depth: parts over which its coefficients are smooth,
+/// between angles of its tip.
+std::vector<CutPiece> way_of_tooth(const Cutter& cutter, double revolutions_per_s, double depth_m);
+
 /// Where helical teeth of equal pitch are in cut at any depth up to the largest: the tip angle from which on,
 /// and how far, at most a pitch.
 struct HelicalArc {

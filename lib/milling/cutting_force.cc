@@ -12,9 +12,10 @@ namespace {
 using Complex = std::complex<double>;
 using Harmonics = TurningArc<4>::Harmonics;
 
-// A chip thickness slope * s + offset from one value of s = sin(phi) to another, m.
+// A chip thickness slope * s + offset from one value of s = sin(phi) to another, m, where the surface was
+// left `delay` radians before.
 struct ChipLine {
-  double slope, offset, from, to;
+  double slope, offset, from, to, delay;
 };
 
 // The least of what 1, 2, ... teeth before would have left, over 0 <= s <= 1, where it is a chip.
@@ -50,17 +51,17 @@ std::vector<ChipLine> chip_of(const std::vector<ChipLine>& left_by) {
 
 // Harmonics of a tooth's force per depth over its own angle [RobotMillingThesis, eqs. 6-2 to 6-4; edges:
 // Altintas2012].
-Harmonics harmonics_of(const Cutter& cutter, const CuttingLoad& load, const ChipLine& chip) {
+Harmonics harmonics_of(const Cutter& cutter, const CuttingLoad& load, const Bite& bite) {
   const double kt = cutter.kt_n_per_m2, kr = cutter.kr_n_per_m2;
-  const double along = kt * chip.offset + load.kte_n_per_m, across = kr * chip.offset + load.kre_n_per_m;
+  const double along = kt * bite.offset_m + load.kte_n_per_m, across = kr * bite.offset_m + load.kre_n_per_m;
   // sin = -i/2 e + ..., cos = 1/2 e + ..., sin^2 = 1/2 - 1/4 e^2 + ..., sin cos = -i/4 e^2 + ...
   const Complex sine = Complex(0, -0.5), cosine = 0.5, square = -0.25, product = Complex(0, -0.25);
   Harmonics h;
-  h.col(0) << -0.5 * kr * chip.slope, 0.5 * kt * chip.slope,
-      load.ka_n_per_m2 * chip.offset + load.kae_n_per_m, along;
+  h.col(0) << -0.5 * kr * bite.slope_m, 0.5 * kt * bite.slope_m,
+      load.ka_n_per_m2 * bite.offset_m + load.kae_n_per_m, along;
   h.col(1) << -along * cosine - across * sine, along * sine - across * cosine,
-      load.ka_n_per_m2 * chip.slope * sine, kt * chip.slope * sine;
-  h.col(2) << chip.slope * (-kt * product - kr * square), chip.slope * (kt * square - kr * product), 0, 0;
+      load.ka_n_per_m2 * bite.slope_m * sine, kt * bite.slope_m * sine;
+  h.col(2) << bite.slope_m * (-kt * product - kr * square), bite.slope_m * (kt * square - kr * product), 0, 0;
   return h;
 }
 
@@ -70,47 +71,65 @@ std::vector<ChipLine> left_before(const Cutter& cutter, const CuttingLoad& load,
   if (load.runout_m.empty()) {
     const double pitch = cutter.equal_pitch() ? kTwoPi / cutter.teeth
                                               : cutter.pitch_rad[(index + cutter.teeth - 1) % cutter.teeth];
-    return {{feed_per_rad * pitch, 0, 0, 1}};
+    return {{feed_per_rad * pitch, 0, 0, 1, pitch}};
   }
   std::vector<ChipLine> left_by;
   double angle = 0;
   for (int m = 1; m <= cutter.teeth; ++m) {
     const int other = (index + cutter.teeth - m) % cutter.teeth;
     angle += cutter.equal_pitch() ? kTwoPi / cutter.teeth : cutter.pitch_rad[other];
-    left_by.push_back({feed_per_rad * angle, load.runout_m[index] - load.runout_m[other], 0, 1});
+    left_by.push_back({feed_per_rad * angle, load.runout_m[index] - load.runout_m[other], 0, 1, angle});
   }
   return left_by;
 }
 
-void add_arc(const Harmonics& harmonics, const Cutter& cutter, double from, double to, double tooth,
-             ForceCycle& cycle) {
-  from = std::max(from, cutter.entry_rad);
-  to = std::min(to, cutter.exit_rad);
-  if (!(from < to)) return;
-  TurningArc<4> arc{from + tooth, to + tooth, harmonics};
-  for (int m = 1; m < 3; ++m) arc.harmonics.col(m) *= std::polar(1.0, -m * tooth);
-  cycle.arcs.push_back(arc);
+// A chip's part of the way, which the engagement may shorten or leave out.
+void add_bite(const Cutter& cutter, const ChipLine& chip, double from, double to, Bite bite,
+              std::vector<Bite>& all) {
+  bite.delay_rad = chip.delay;
+  bite.slope_m = chip.slope;
+  bite.offset_m = chip.offset;
+  bite.entry_rad = std::max(from, cutter.entry_rad);
+  bite.exit_rad = std::min(to, cutter.exit_rad);
+  if (bite.entry_rad < bite.exit_rad) all.push_back(bite);
+}
+
+// Whether every tooth cuts as the one before it does.
+bool alike(const Cutter& cutter, const CuttingLoad& load) {
+  return cutter.equal_pitch() && load.runout_m.empty();
 }
 
 }  // namespace
 
-ForceCycle force_cycle(const Cutter& cutter, const CuttingLoad& load) {
-  const bool alike = cutter.equal_pitch() && load.runout_m.empty();
-  ForceCycle cycle;
-  cycle.period_rad = alike ? kTwoPi / cutter.teeth : kTwoPi;
-  double tooth = 0;
-  for (int index = 0; index < (alike ? 1 : cutter.teeth); ++index) {
-    for (const ChipLine& chip : chip_of(left_before(cutter, load, index))) {
-      const Harmonics harmonics = harmonics_of(cutter, load, chip);
+std::vector<Bite> bites(const Cutter& cutter, const CuttingLoad& load) {
+  std::vector<Bite> all;
+  double behind = 0;
+  for (int tooth = 0; tooth < (alike(cutter, load) ? 1 : cutter.teeth); ++tooth) {
+    Bite bite;
+    bite.tooth = tooth;
+    bite.behind_rad = behind;
+    for (const ChipLine& chip : chip_of(left_before(cutter, load, tooth))) {
       const double from = std::asin(chip.from), to = std::asin(chip.to);
       if (chip.to < 1) {
-        add_arc(harmonics, cutter, from, to, tooth, cycle);
-        add_arc(harmonics, cutter, kPi - to, kPi - from, tooth, cycle);
+        add_bite(cutter, chip, from, to, bite, all);
+        add_bite(cutter, chip, kPi - to, kPi - from, bite, all);
       } else {
-        add_arc(harmonics, cutter, from, kPi - from, tooth, cycle);
+        add_bite(cutter, chip, from, kPi - from, bite, all);
       }
     }
-    tooth += cutter.equal_pitch() ? kTwoPi / cutter.teeth : cutter.pitch_rad[index];
+    behind += cutter.equal_pitch() ? kTwoPi / cutter.teeth : cutter.pitch_rad[tooth];
+  }
+  return all;
+}
+
+ForceCycle force_cycle(const Cutter& cutter, const CuttingLoad& load) {
+  ForceCycle cycle;
+  cycle.period_rad = alike(cutter, load) ? kTwoPi / cutter.teeth : kTwoPi;
+  for (const Bite& bite : bites(cutter, load)) {
+    TurningArc<4> arc{bite.entry_rad + bite.behind_rad, bite.exit_rad + bite.behind_rad,
+                      harmonics_of(cutter, load, bite)};
+    for (int m = 1; m < 3; ++m) arc.harmonics.col(m) *= std::polar(1.0, -m * bite.behind_rad);
+    cycle.arcs.push_back(arc);
   }
   return cycle;
 }

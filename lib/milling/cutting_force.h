@@ -33,8 +33,21 @@ struct ForceCycle {
   ForceParts mean() const { return integral_to(arcs, period_rad, period_rad) / period_rad; }
 };
 
-/// The chip of a tooth is what the teeth before it left: with runout that may be the work of a tooth further
-/// back, and a tooth may cut nothing. Turn 0: tooth 1 at phi = 0.
+/// A part of a tooth's way through the cut on which one tooth before it has left the surface: its mean chip
+/// thickness there is slope * sin(phi) + offset.
+struct Bite {
+  int tooth = 0;          ///< index
+  double behind_rad = 0;  ///< of the first tooth: phi is the turn less this
+  double delay_rad = 0;   ///< the turn since the surface was left
+  double slope_m = 0, offset_m = 0;
+  double entry_rad = 0, exit_rad = 0;  ///< phi
+};
+/// Of one tooth where all are alike, which is repeated every pitch, else of all in a revolution. The chip of
+/// a tooth is what the teeth before it left: with runout that may be the work of a tooth further back, and a
+/// tooth may cut nothing.
+std::vector<Bite> bites(const Cutter& cutter, const CuttingLoad& load);
+
+/// Turn 0: tooth 1 at phi = 0.
 ForceCycle force_cycle(const Cutter& cutter, const CuttingLoad& load);
 
 }  // namespace stablecut::milling

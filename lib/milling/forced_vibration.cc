@@ -13,26 +13,31 @@ using Complex = std::complex<double>;
 
 }  // namespace
 
-ForcedVibration::ForcedVibration(const TipStructure& structure, const Cutter& cutter, const ForceCycle& force,
-                                 double revolutions_per_s)
-    : period_rad_(force.period_rad), lag_rad_per_m_(cutter.lag_rad_per_m) {
+ModesInCut modes_in_cut(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s) {
   const double omega = kTwoPi * revolutions_per_s;
   const Eigen::Matrix2d feed = Eigen::Rotation2Dd(cutter.feed_angle_rad).toRotationMatrix();
   const Eigen::MatrixXd into_cut = feed.transpose()(Eigen::all, structure.axes);
-  shape_ = into_cut * structure.psi_r;
-  const Eigen::Matrix2Xcd left = into_cut * structure.psi_l;
-  rate_ = structure.lambda / omega;
+  return {structure.lambda / omega, into_cut * structure.psi_r, into_cut * structure.psi_l / omega};
+}
+
+ForcedVibration::ForcedVibration(const TipStructure& structure, const Cutter& cutter, const ForceCycle& force,
+                                 double revolutions_per_s)
+    : period_rad_(force.period_rad), lag_rad_per_m_(cutter.lag_rad_per_m) {
+  const ModesInCut modes = modes_in_cut(structure, cutter, revolutions_per_s);
+  shape_ = modes.shape;
+  rate_ = modes.rate;
   const auto receptance = [&](Complex s) -> Eigen::Matrix2cd {
-    const Eigen::VectorXcd own = (s - structure.lambda.array()).inverse(),
-                           other = (s - structure.lambda.array().conjugate()).inverse();
-    return shape_ * own.asDiagonal() * left.transpose() +
-           shape_.conjugate() * other.asDiagonal() * left.adjoint();
+    const Eigen::VectorXcd own = (s - rate_.array()).inverse(),
+                           other = (s - rate_.array().conjugate()).inverse();
+    return shape_ * own.asDiagonal() * modes.drive.transpose() +
+           shape_.conjugate() * other.asDiagonal() * modes.drive.adjoint();
   };
   for (const TurningArc<4>& arc : force.arcs) {
     TurningArc<2> driven{arc.from_rad, arc.to_rad, {}};
     for (int m = 0; m < 3; ++m)
-      driven.harmonics.col(m) = receptance(Complex(0, m * omega)) * arc.harmonics.col(m).head<2>();
+      driven.harmonics.col(m) = receptance(Complex(0, m)) * arc.harmonics.col(m).head<2>();
     driven_.push_back(driven);
+    driven_slope_.push_back(driven.slope());
     // A mode follows the arc's harmonics from its beginning, less what it would have had then, and swings
     // freely from its end with what it has.
     for (const double turn : {arc.from_rad, arc.to_rad}) {
@@ -40,8 +45,8 @@ ForcedVibration::ForcedVibration(const TipStructure& structure, const Cutter& cu
       for (int m = -2; m <= 2; ++m) {
         Eigen::Vector2cd part = arc.harmonics.col(std::abs(m)).head<2>();
         if (m < 0) part = part.conjugate().eval();
-        state.array() += (left.transpose() * part).array() * std::polar(1.0, m * turn) /
-                         (Complex(0, m * omega) - structure.lambda.array());
+        state.array() += (modes.drive.transpose() * part).array() * std::polar(1.0, m * turn) /
+                         (Complex(0, m) - rate_.array());
       }
       if (turn == arc.from_rad) state = -state;
       breaks_.push_back({turn, state});
@@ -108,6 +113,15 @@ Eigen::Matrix2Xd ForcedVibration::over_depth(double depth_m, double from_rad, in
 
 Eigen::Vector2d ForcedVibration::displacement(double depth_m, double turn_rad) const {
   return over_depth(depth_m, turn_rad, 1);
+}
+
+Eigen::Vector2d ForcedVibration::slope(double depth_m, double turn_rad) const {
+  const double lag = lag_rad_per_m_ * depth_m;
+  if (std::abs(lag) >= kStraight)
+    return (per_depth(turn_rad, 1) - per_depth(turn_rad - lag, 1)) / lag_rad_per_m_;
+  const Eigen::VectorXcd state = free_at(turn_rad).state;
+  return depth_m *
+         (sum_at(driven_slope_, period_rad_, turn_rad) + 2 * (shape_ * rate_.cwiseProduct(state)).real());
 }
 
 Eigen::Matrix2Xd ForcedVibration::displacements(double depth_m, int count) const {

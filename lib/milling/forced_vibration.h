@@ -9,6 +9,15 @@
 
 namespace stablecut::milling {
 
+/// The structure's modes as the cut sees them: q' = rate q + drive^T f per radian of turn, r = 2 Re(shape q),
+/// with the force and the displacement r along the feed and normal to it.
+struct ModesInCut {
+  Eigen::VectorXcd rate;    ///< [modes], per rad
+  Eigen::Matrix2Xcd shape;  ///< [2 x modes], sqrt(s/kg)
+  Eigen::Matrix2Xcd drive;  ///< [2 x modes], sqrt(s/kg) s/rad
+};
+ModesInCut modes_in_cut(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s);
+
 /// The tip's motion at one speed where it does not change the chip: equal pitches without runout, where every
 /// tooth leaves the same surface, and no process damping. Exact: each mode's motion between the breaks of the
 /// force is known in closed form.
@@ -21,7 +30,9 @@ class ForcedVibration {
   double period_rad() const { return period_rad_; }
   /// Displacement at a turn, m, in the cut's frame: along the feed and normal to it.
   Eigen::Vector2d displacement(double depth_m, double turn_rad) const;
-  /// The same at `count` turns at equal distances over a period from turn 0, [2 x count]: cheaper.
+  /// Its rate of change per turn, m/rad.
+  Eigen::Vector2d slope(double depth_m, double turn_rad) const;
+  /// The displacement at `count` turns at equal distances over a period from turn 0, [2 x count]: cheaper.
   Eigen::Matrix2Xd displacements(double depth_m, int count) const;
   /// Its mean over the period.
   Eigen::Vector2d mean(double depth_m) const { return depth_m * mean_; }
@@ -48,7 +59,7 @@ class ForcedVibration {
   Eigen::VectorXcd rate_;    // [modes], per rad of turn
   Eigen::Matrix2Xcd shape_;  // [2 x modes], in the cut's frame
   std::vector<Break> breaks_;
-  std::vector<TurningArc<2>> driven_;  // while an arc is in cut
+  std::vector<TurningArc<2>> driven_, driven_slope_;  // while an arc is in cut
   Eigen::Vector2d mean_;
 };
 

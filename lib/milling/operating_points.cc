@@ -70,6 +70,7 @@ void verify(OperatingPoint& point, const std::vector<LimitPoint>& curve, const O
     const auto limit =
         std::abs(step) == kStepsPerMargin ? limit_at(speed(margins), top) : limit_near(speed(margins), top);
     if (limit) point.depth_m = (1 - limits.depth_share) * *limit;
+    if (limits.allowed_depth) point.depth_m = limits.allowed_depth(speed(margins), point.depth_m);
   }
   // Further out half of the margin of depth is kept, since limits between the steps are not known.
   const double kept = point.depth_m / (1 - limits.depth_share / 2);
@@ -180,6 +181,11 @@ std::vector<OperatingPoint> best_points(const std::vector<LimitPoint>& curve, co
       deepest = std::min(deepest, *limits.largest_depth_times_speed / speed);
     if (limits.largest_depth_by_torque) deepest = std::min(deepest, *limits.largest_depth_by_torque);
     depth[i] = deepest;
+  }
+  if (limits.allowed_depth) {
+    parallel_for(curve.size(), threads, [&](std::size_t i) {
+      if (depth[i] > 0) depth[i] = limits.allowed_depth(curve[i].revolutions_per_s, depth[i]);
+    });
   }
   const auto rate = [&](std::size_t i) { return depth[i] * curve[i].revolutions_per_s; };
   std::vector<std::size_t> peaks;

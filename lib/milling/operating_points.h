@@ -51,6 +51,9 @@ struct OperatingLimits {
   double speed_share = 0.02;  ///< of the speed, to either side: the point is stable there too
   std::optional<double> largest_depth_times_speed;  ///< m/s: what the power allows
   std::optional<double> largest_depth_by_torque;    ///< m
+  /// How deep a cut may be at a speed, up to a depth (what its surface allows); empty: any. May be called
+  /// from several threads.
+  std::function<double(double revolutions_per_s, double depth_m)> allowed_depth;
 };
 
 struct OperatingPoint {

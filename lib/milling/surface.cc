@@ -1,7 +1,10 @@
 #include "milling/surface.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "base/parallel.h"
 #include "base/units.h"
@@ -12,6 +15,9 @@ namespace {
 constexpr double kSamplesPerWave = 12;  // of the fastest mode, and of twice the spindle's turn
 constexpr int kLeastSamples = 48, kMostSamples = 4096;
 constexpr double kAtWall = 1e-9;  // rad
+// The depth at which the surface's error becomes too large: steps up to it, and halvings of the one that it
+// is in.
+constexpr int kDepthSteps = 16, kHalvings = 10;
 
 int samples_of(const TipStructure& structure, double revolutions_per_s, double period_rad) {
   const double fastest =
@@ -42,56 +48,177 @@ std::vector<double> walls_of(const Cutter& cutter) {
 
 SurfacePoint scaled(SurfacePoint point, double depth_m) {
   if (point.location_error_m) *point.location_error_m *= depth_m;
+  if (point.error_with_offset_m) *point.error_with_offset_m *= depth_m;
   point.peak_vibration_m *= depth_m;
   point.rms_vibration_m *= depth_m;
   point.mean_deflection_m *= depth_m;
   return point;
 }
 
+// Whether vibration leaves the chip as it is: every tooth leaves the same surface, and none rubs.
+bool leaves_equal_chips(const Cutter& cutter, const CuttingLoad& load) {
+  return cutter.equal_pitch() && load.runout_m.empty() && cutter.damping_n_per_m == 0;
+}
+
+// Of the mean force per depth, in the cut's frame.
+Eigen::Vector2d displacement_under(const Eigen::Matrix2d& compliance, const Cutter& cutter,
+                                   const ForceCycle& force) {
+  const Eigen::Matrix2d feed = Eigen::Rotation2Dd(cutter.feed_angle_rad).toRotationMatrix();
+  return feed.transpose() * compliance * feed * force.mean().head<2>();
+}
+
 }  // namespace
 
-SurfacePoint surface_of(const ForcedVibration& vibration, const Cutter& cutter, double depth_m, int samples) {
-  SurfacePoint result;
-  result.mean_deflection_m = vibration.mean(depth_m);
-  const Eigen::Matrix2Xd motion =
-      vibration.displacements(depth_m, samples).colwise() - result.mean_deflection_m;
-  result.peak_vibration_m = std::sqrt(summit(motion.colwise().squaredNorm()));
-  result.rms_vibration_m = std::sqrt(motion.colwise().squaredNorm().mean());
-  const double lag = cutter.lag_rad_per_m * depth_m;
-  const int heights = 1 + static_cast<int>(std::ceil(samples * std::abs(lag) / vibration.period_rad()));
-  for (const double wall : walls_of(cutter)) {
-    for (int i = 0; i < (lag == 0 ? 1 : heights + 1); ++i) {
-      // The edge at a height passes the wall after its tip. A tip that stands nearer to the wall cuts deeper.
-      const Eigen::Vector2d tip = vibration.displacement(depth_m, wall + lag * i / heights);
-      const double error = wall == 0 ? -tip.y() : tip.y();
-      if (!result.location_error_m || std::abs(error) > std::abs(*result.location_error_m))
-        result.location_error_m = error;
+Eigen::Matrix2d compliance_below_band(const dynamics::ModalModel& model) {
+  double lowest = std::numeric_limits<double>::infinity();  // in the band
+  for (const dynamics::Mode& mode : model.modes) {
+    if (!mode.out_of_band) lowest = std::min(lowest, mode.frequency_hz);
+  }
+  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  const std::array<Eigen::Index, 2> row = {model.dof("x"), model.dof("y")};
+  for (const dynamics::Mode& mode : model.modes) {
+    if (!mode.out_of_band || mode.frequency_hz >= lowest) continue;
+    for (int i = 0; i < 2; ++i) {
+      for (int j = 0; j < 2; ++j) {
+        if (row[i] >= 0 && row[j] >= 0)
+          sum(i, j) -= 2 * (mode.psi_r[row[i]] * mode.psi_l[row[j]] / mode.pole()).real();
+      }
+    }
+  }
+  return sum;
+}
+
+SurfaceAtSpeed::SurfaceAtSpeed(const TipStructure& structure, const Cutter& cutter, const CuttingLoad& load,
+                               double revolutions_per_s, int resolution,
+                               const Eigen::Matrix2d& added_compliance)
+    : structure_(structure),
+      cutter_(cutter),
+      load_(load),
+      revolutions_per_s_(revolutions_per_s),
+      resolution_(resolution),
+      force_(force_cycle(cutter, load)),
+      added_(displacement_under(added_compliance, cutter, force_)),
+      forced_(structure, cutter, force_, revolutions_per_s),
+      samples_(samples_of(structure, revolutions_per_s, force_.period_rad)) {}
+
+std::vector<SurfaceAtSpeed::Passage> SurfaceAtSpeed::passages(double depth_m) const {
+  const bool one_for_all = cutter_.equal_pitch() && load_.runout_m.empty();
+  const double lag = cutter_.lag_rad_per_m * depth_m;
+  const int steps =
+      lag == 0 ? 0 : 1 + static_cast<int>(std::ceil(samples_ * std::abs(lag) / forced_.period_rad()));
+  std::vector<Passage> result;
+  for (const double wall : walls_of(cutter_)) {
+    for (int i = 0; i <= steps; ++i) {
+      // The edge at a height passes the wall after its tip.
+      double turn = wall + (steps > 0 ? lag * i / steps : 0);
+      for (int tooth = 0; tooth < (one_for_all ? 1 : cutter_.teeth); ++tooth) {
+        result.push_back({wall, turn, load_.runout_m.empty() ? 0 : load_.runout_m[tooth], i});
+        turn += cutter_.equal_pitch() ? kTwoPi / cutter_.teeth : cutter_.pitch_rad[tooth];
+      }
     }
   }
   return result;
 }
 
-bool leaves_equal_chips(const Cutter& cutter, const CuttingLoad& load) {
-  return cutter.equal_pitch() && load.runout_m.empty() && cutter.damping_n_per_m == 0;
+double SurfaceAtSpeed::points_per_rad(double depth_m) const {
+  double longest = 0;
+  for (const CutPiece& piece : cut_schedule(cutter_, revolutions_per_s_, depth_m).pieces)
+    longest = std::max(longest, piece.to_rad - piece.from_rad);
+  return resolution_ / longest;
+}
+
+// At equal distances over the period, and then at the passages.
+Eigen::Matrix2Xd SurfaceAtSpeed::displacements(double depth_m, const std::vector<Passage>& passages) {
+  const auto count = static_cast<Eigen::Index>(passages.size());
+  if (leaves_equal_chips(cutter_, load_)) {
+    Eigen::Matrix2Xd result(2, samples_ + count);
+    result.leftCols(samples_) = forced_.displacements(depth_m, samples_);
+    for (Eigen::Index i = 0; i < count; ++i)
+      result.col(samples_ + i) = forced_.displacement(depth_m, passages[i].turn_rad);
+    return result;
+  }
+  if (!regenerative_ || cutter_.lag_rad_per_m != 0) {
+    std::vector<double> turns;
+    for (int i = 0; i < samples_; ++i) turns.push_back(i * forced_.period_rad() / samples_);
+    for (const Passage& passage : passages) turns.push_back(passage.turn_rad);
+    regenerative_.emplace(structure_, cutter_, load_, forced_, revolutions_per_s_, depth_m,
+                          points_per_rad(depth_m), turns);
+  }
+  return regenerative_->displacements(depth_m);
+}
+
+SurfacePoint SurfaceAtSpeed::at(double depth_m) {
+  const bool in_proportion = leaves_equal_chips(cutter_, load_) && cutter_.lag_rad_per_m == 0;
+  if (in_proportion && per_depth_) return scaled(*per_depth_, depth_m);
+  if (depth_m == 0) {
+    const auto nothing = walls_of(cutter_).empty() ? std::nullopt : std::optional(0.0);
+    return {nothing, nothing};
+  }
+
+  const std::vector<Passage> touched = passages(depth_m);
+  const Eigen::Matrix2Xd motion = displacements(depth_m, touched).colwise() + depth_m * added_;
+  SurfacePoint result;
+  result.mean_deflection_m = motion.leftCols(samples_).rowwise().mean();
+  if (leaves_equal_chips(cutter_, load_)) result.mean_deflection_m = forced_.mean(depth_m) + depth_m * added_;
+  const Eigen::RowVectorXd squares =
+      (motion.leftCols(samples_).colwise() - result.mean_deflection_m).colwise().squaredNorm();
+  result.peak_vibration_m = std::sqrt(summit(squares));
+  result.rms_vibration_m = std::sqrt(squares.mean());
+
+  const double farthest = load_.runout_m.empty() ? 0 : std::ranges::max(load_.runout_m);
+  for (std::size_t i = 0; i < touched.size();) {
+    // What the deepest tooth leaves at a height: a tip that stands nearer to the wall cuts deeper.
+    const Passage& first = touched[i];
+    const double outwards = first.wall_rad == 0 ? 1 : -1;  // along the normal
+    double left = std::numeric_limits<double>::infinity();
+    for (; i < touched.size() && touched[i].height == first.height && touched[i].wall_rad == first.wall_rad;
+         ++i) {
+      const double normal = motion(1, samples_ + static_cast<Eigen::Index>(i));
+      left = std::min(left, farthest - touched[i].runout_m - outwards * normal);
+    }
+    const auto keep_larger = [](std::optional<double>& largest, double value) {
+      if (!largest || std::abs(value) > std::abs(*largest)) largest = value;
+    };
+    keep_larger(result.location_error_m, left);
+    keep_larger(result.error_with_offset_m, left + outwards * result.mean_deflection_m.y());
+  }
+  if (in_proportion) per_depth_ = scaled(result, 1 / depth_m);
+  return result;
+}
+
+double SurfaceAtSpeed::deepest_within(double largest_error_m, double depth_m) {
+  const auto within = [&](double depth) {
+    const auto error = at(depth).location_error_m;
+    return !error || std::abs(*error) <= largest_error_m;
+  };
+  double deepest = 0;
+  for (int step = 1; step <= kDepthSteps; ++step) {
+    double beyond = depth_m * step / kDepthSteps;
+    if (within(beyond)) {
+      deepest = beyond;
+      continue;
+    }
+    for (int half = 0; half < kHalvings; ++half) {
+      const double middle = (deepest + beyond) / 2;
+      (within(middle) ? deepest : beyond) = middle;
+    }
+    break;
+  }
+  return deepest;
 }
 
 SurfaceChart surface_chart(const TipStructure& structure, const Cutter& cutter, const CuttingLoad& load,
                            const std::vector<double>& revolutions_per_s, const std::vector<double>& depths_m,
-                           const StabilityChart& chart, int threads, const Progress& progress) {
-  const ForceCycle force = force_cycle(cutter, load);
+                           const StabilityChart& chart, const Eigen::Matrix2d& added_compliance, int threads,
+                           const Progress& progress) {
   SurfaceChart result(depths_m.size(), {revolutions_per_s.size(), std::nullopt});
   parallel_for(
       revolutions_per_s.size(), threads,
       [&](std::size_t s) {
-        const ForcedVibration vibration(structure, cutter, force, revolutions_per_s[s]);
-        const int samples = samples_of(structure, revolutions_per_s[s], force.period_rad);
-        // The motion under straight teeth is in proportion to the depth.
-        std::optional<SurfacePoint> per_depth;
-        if (cutter.lag_rad_per_m == 0) per_depth = surface_of(vibration, cutter, 1, samples);
+        SurfaceAtSpeed surface(structure, cutter, load, revolutions_per_s[s], chart.resolution[s],
+                               added_compliance);
         for (std::size_t d = 0; d < depths_m.size(); ++d) {
-          if (!(chart.spectral_radius(d, s) < 1)) continue;
-          result[d][s] = per_depth ? scaled(*per_depth, depths_m[d])
-                                   : surface_of(vibration, cutter, depths_m[d], samples);
+          if (chart.spectral_radius(d, s) < 1) result[d][s] = surface.at(depths_m[d]);
         }
       },
       progress);

@@ -33,7 +33,119 @@ Eigen::Vector2cd force_harmonic(const ForceCycle& cycle, int k) {
   return sum / cycle.period_rad;
 }
 
+SurfacePoint surface_at(const TipStructure& structure, const Cutter& cutter, const CuttingLoad& load,
+                        double revolutions_per_s, double depth_m) {
+  return SurfaceAtSpeed(structure, cutter, load, revolutions_per_s, 10).at(depth_m);
+}
+
+// A cut stepped through time until what was there at its start is gone: the linear delay equation, each tooth
+// of `heights` straight edges cutting where bites() says. The tip's motion over the last period, [2 x steps
+// of a revolution] in the cut's frame; pitches are whole numbers of steps.
+Eigen::Matrix2Xd stepped(const TipStructure& structure, const Cutter& cutter, const CuttingLoad& load,
+                         double speed, double depth_m, int steps, int revolutions, int heights) {
+  const double step = kTwoPi / steps;
+  const ModesInCut modes = modes_in_cut(structure, cutter, speed);
+  const Eigen::VectorXcd growth = (modes.rate * step).array().exp();
+  const Eigen::VectorXcd held = (growth.array() - 1) / modes.rate.array();
+  // The response to a force that grows by 1 a step.
+  const Eigen::VectorXcd rising = (held.array() - step) / (modes.rate.array() * step);
+  std::vector<Bite> all = bites(cutter, load);
+  if (cutter.equal_pitch() && load.runout_m.empty()) {
+    const std::vector<Bite> one = all;
+    for (int tooth = 1; tooth < cutter.teeth; ++tooth) {
+      for (Bite bite : one) {
+        bite.behind_rad += tooth * kTwoPi / cutter.teeth;
+        all.push_back(bite);
+      }
+    }
+  }
+  Eigen::Matrix2Xd history = Eigen::Matrix2Xd::Zero(2, steps), motion = history;
+  Eigen::VectorXcd q = Eigen::VectorXcd::Zero(structure.modes());
+  const double flank =
+      cutter.damping_n_per_m > 0 ? cutter.damping_n_per_m / (kPi * cutter.diameter_m * speed) : 0;
+  const auto force = [&](int i, const Eigen::Vector2d& tip, const Eigen::Vector2d& velocity) {
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (const Bite& bite : all) {
+      for (int z = 0; z < heights; ++z) {
+        const double lag = cutter.lag_rad_per_m * depth_m * (z + 0.5) / heights;
+        const double phi = std::remainder(i * step - bite.behind_rad - lag - kPi, kTwoPi) + kPi;
+        if (phi < bite.entry_rad || phi >= bite.exit_rad) continue;
+        const Eigen::Vector2d out(std::sin(phi), std::cos(phi)), along(-out.y(), out.x());
+        const int before = (i - static_cast<int>(std::lround(bite.delay_rad / step)) + 2 * steps) % steps;
+        const double chip = bite.slope_m * out.x() + bite.offset_m + out.dot(tip - history.col(before));
+        const double rubbed = flank * out.dot(velocity);
+        sum += depth_m / heights *
+               (along * (cutter.kt_n_per_m2 * chip + load.kte_n_per_m + cutter.damping_friction * rubbed) -
+                out * (cutter.kr_n_per_m2 * chip + load.kre_n_per_m + rubbed));
+      }
+    }
+    return sum;
+  };
+  const auto tip_of = [&](const Eigen::VectorXcd& state) -> Eigen::Vector2d {
+    return 2 * (modes.shape * state).real();
+  };
+  const auto velocity_of = [&](const Eigen::VectorXcd& state, const Eigen::Vector2d& f) -> Eigen::Vector2d {
+    return kTwoPi * speed * 2 *
+           (modes.shape * (modes.rate.cwiseProduct(state) + modes.drive.transpose() * f)).real();
+  };
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
+  for (int i = 0; i < revolutions * steps; ++i) {
+    const Eigen::Vector2d now = force(i % steps, tip_of(q), velocity);
+    history.col(i % steps) = tip_of(q);
+    const Eigen::VectorXcd drive = modes.drive.transpose() * now;
+    Eigen::VectorXcd next = growth.cwiseProduct(q) + held.cwiseProduct(drive);
+    const Eigen::Vector2d then = force((i + 1) % steps, tip_of(next), velocity_of(next, now));
+    next += rising.cwiseProduct(modes.drive.transpose() * (then - now));
+    velocity = velocity_of(next, then);
+    q = next;
+    motion.col((i + 1) % steps) = tip_of(q);
+  }
+  return motion;
+}
+
 }  // namespace
+
+TEST_CASE("vibration that changes the chip is what a simulation settles to") {
+  const TipStructure structure = tip_structure(fixtures::coupled_modes(3, 4));
+  constexpr double kSpeed = 70, kDepth = 0.4e-3;
+  constexpr int kSteps = 7200;
+  Cutter cutter = fixtures::benchmark_cutter(false, 0.6, 4);
+  cutter.feed_angle_rad = 0.4;
+  CuttingLoad load = kLoad;
+  int heights = 1;
+  SECTION("unequal pitch") { cutter.pitch_rad = {1.4, 1.7, 1.5, kTwoPi - 4.6}; }
+  SECTION("runout, one tooth cutting what two before it left") {
+    load.runout_m = {0, -0.15e-3, 0.02e-3, 0.03e-3};
+  }
+  SECTION("process damping") {
+    cutter.damping_n_per_m = 2e5;
+    cutter.damping_friction = 0.3;
+    cutter.diameter_m = 0.016;
+  }
+  SECTION("a helix and unequal pitch") {
+    cutter.pitch_rad = {1.4, 1.7, 1.5, kTwoPi - 4.6};
+    cutter.lag_rad_per_m = 600;
+    heights = 40;
+  }
+  for (double& pitch : cutter.pitch_rad) pitch = std::round(pitch * kSteps / kTwoPi) * kTwoPi / kSteps;
+  // Edges enter and leave in the middle of a step, where half of it is right.
+  for (double* angle : {&cutter.entry_rad, &cutter.exit_rad})
+    *angle = (std::floor(*angle * kSteps / kTwoPi) - 0.5) * kTwoPi / kSteps;
+  const Eigen::Matrix2Xd simulated = stepped(structure, cutter, load, kSpeed, kDepth, kSteps, 30, heights);
+  const ForcedVibration forced(structure, cutter, force_cycle(cutter, load), kSpeed);
+  std::vector<double> turns;
+  for (int i = 0; i < kSteps; i += 45) turns.push_back(i * kTwoPi / kSteps);
+  const Eigen::Matrix2Xd still =
+      RegenerativeVibration(structure, cutter, load, forced, kSpeed, kDepth, 10, turns).displacements(kDepth);
+  const double scale = still.colwise().norm().maxCoeff();
+  double error = 0, changed = 0;
+  for (Eigen::Index i = 0; i < still.cols(); ++i) {
+    error = std::max(error, (still.col(i) - simulated.col(45 * i)).norm());
+    changed = std::max(changed, (still.col(i) - forced.displacement(kDepth, turns[i])).norm());
+  }
+  CHECK(changed > 0.02 * scale);
+  CHECK(error < 7e-4 * scale);
+}
 
 TEST_CASE("forced vibration is the harmonic sum of the receptance, and the surface follows from it") {
   std::mt19937_64 generator(5);
@@ -73,7 +185,8 @@ TEST_CASE("forced vibration is the harmonic sum of the receptance, and the surfa
     // Up milling leaves its wall at phi = 0, on the side of +Y; material is left where the tip stays back.
     const double at_wall = vibration.displacement(1e-3, n % 2 == 0 ? 0 : kPi).y();
     if (cutter.exit_rad - cutter.entry_rad < 3)
-      CHECK(*surface_of(vibration, cutter, 1e-3, 64).location_error_m == (n % 2 == 0 ? -at_wall : at_wall));
+      CHECK(*surface_at(structure, cutter, kLoad, speed, 1e-3).location_error_m ==
+            Approx(n % 2 == 0 ? -at_wall : at_wall).epsilon(1e-12));
   }
 }
 
@@ -99,7 +212,7 @@ TEST_CASE("a helical edge is many straight ones") {
     }
     // A multiple of the axial pitch: the force does not change, and the tip stands still.
     const double axial_pitch = kTwoPi / 3 / std::abs(lag);
-    const SurfacePoint still = surface_of(helical, cutter, axial_pitch, 64);
+    const SurfacePoint still = surface_at(structure, cutter, kLoad, 60, axial_pitch);
     CHECK(still.peak_vibration_m < 1e-9 * still.mean_deflection_m.norm());
     CHECK(*still.location_error_m == Approx(still.mean_deflection_m.y()).epsilon(1e-9));
   }
@@ -143,9 +256,7 @@ TEST_CASE("at a resonance the surface error changes its sign, up and down millin
   const auto error = [&](bool up, double share) {
     Cutter cutter = fixtures::benchmark_cutter(up, 0.05, 1);
     cutter.kr_n_per_m2 = 0;
-    const ForceCycle cycle = force_cycle(cutter, {0.1e-3, 0, 0, 0, 0, {}});
-    return *surface_of(ForcedVibration(structure, cutter, cycle, share * natural), cutter, 1e-3, 64)
-                .location_error_m;
+    return *surface_at(structure, cutter, {0.1e-3, 0, 0, 0, 0, {}}, share * natural, 1e-3).location_error_m;
   };
   // The tangential force pushes the tip towards +Y: below a resonance into the wall of up milling, away from
   // that of down milling.
@@ -153,4 +264,31 @@ TEST_CASE("at a resonance the surface error changes its sign, up and down millin
   CHECK(error(false, 0.9) > 0);
   CHECK(error(true, 1.1) > 0);
   CHECK(error(false, 1.1) < 0);
+}
+
+TEST_CASE("the deepest cut within an error of the surface") {
+  const TipStructure structure = tip_structure(fixtures::coupled_modes(4, 2));
+  for (const double lag : {0.0, 400.0}) {
+    Cutter cutter = fixtures::benchmark_cutter(false, 0.3, 3);
+    cutter.lag_rad_per_m = lag;
+    SurfaceAtSpeed surface(structure, cutter, kLoad, 60, 10);
+    constexpr double kTop = 4e-3;
+    const double allowed = 0.6 * std::abs(*surface.at(kTop / 2).location_error_m);
+    const double deepest = surface.deepest_within(allowed, kTop);
+    REQUIRE((deepest > 0 && deepest < kTop));
+    CHECK(std::abs(*surface.at(deepest).location_error_m) <= allowed);
+    CHECK(std::abs(*surface.at(deepest + 1e-3 * kTop).location_error_m) > allowed);
+    CHECK(surface.deepest_within(1, kTop) == kTop);
+  }
+}
+
+TEST_CASE("stand-in modes below the band are the static compliance that a pose replaces") {
+  dynamics::ModalModel model = fixtures::coupled_modes(3, 6);
+  model.modes[0].frequency_hz = 5;
+  CHECK(compliance_below_band(model).norm() == 0);
+  model.modes[0].out_of_band = true;
+  model.modes[2].frequency_hz = 5000;
+  model.modes[2].out_of_band = true;
+  const Eigen::Matrix2cd part = model.modes[0].residue() / -model.modes[0].pole();
+  CHECK((compliance_below_band(model) - 2 * part.real()).norm() < 1e-14 * part.norm());
 }

@@ -26,6 +26,12 @@ struct TurningArc {
                                           harmonics.col(2) * std::polar(1.0, 2 * turn_rad))
                                              .real();
   }
+  /// The rate of change per turn of it, on the same arc.
+  TurningArc slope() const {
+    TurningArc result{from_rad, to_rad, Harmonics::Zero()};
+    for (int m = 1; m < 3; ++m) result.harmonics.col(m) = std::complex<double>(0, m) * harmonics.col(m);
+    return result;
+  }
   /// The integral from the beginning to a turn.
   Values integral_to(double turn_rad) const {
     const auto factor = [&](int m) {

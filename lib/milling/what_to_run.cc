@@ -29,6 +29,14 @@ OperatingLimits limits_of(const RunRequest& request, const Cutter& cutter, doubl
   return limits;
 }
 
+// Of the curve's speed below: lower speeds need more points.
+int resolution_at(const LimitCurve& curve, double revolutions_per_s) {
+  const auto above =
+      std::upper_bound(curve.points.begin(), curve.points.end(), revolutions_per_s,
+                       [](double value, const LimitPoint& p) { return value < p.revolutions_per_s; });
+  return curve.resolution[std::max<std::ptrdiff_t>(above - curve.points.begin() - 1, 0)];
+}
+
 // Limits at speeds between the curve's, as many as they are worth.
 std::vector<LimitPoint> limits_between(const std::vector<TipStructure>& structures, const Cutter& cutter,
                                        const LimitCurve& curve, const LimitAt& limit_at, int threads) {
@@ -74,17 +82,13 @@ LimitCurve limit_curve(const StabilityChart& chart, const std::vector<double>& r
 WhatToRun what_to_run(const std::vector<TipStructure>& structures, const Cutter& cutter,
                       const LimitCurve& curve, const RunRequest& request, int threads) {
   const LimitAt limit_at = [&](double speed, double largest_depth_m) -> std::optional<double> {
-    // Lower speeds need more points.
-    const auto above =
-        std::upper_bound(curve.points.begin(), curve.points.end(), speed,
-                         [](double value, const LimitPoint& p) { return value < p.revolutions_per_s; });
-    const auto below = std::max<std::ptrdiff_t>(above - curve.points.begin() - 1, 0);
-    if (curve.resolution[below] == 0) return 0.0;
+    const int resolution = resolution_at(curve, speed);
+    if (resolution == 0) return 0.0;
     try {
       std::optional<double> lowest;
       for (const TipStructure& structure : structures) {
         const double top = lowest.value_or(largest_depth_m);
-        const auto limit = limit_depth(structure, cutter, speed, curve.method, curve.resolution[below], top);
+        const auto limit = limit_depth(structure, cutter, speed, curve.method, resolution, top);
         if (limit) lowest = limit;
       }
       return lowest;
@@ -113,11 +117,25 @@ WhatToRun what_to_run(const std::vector<TipStructure>& structures, const Cutter&
     std::sort(what.between.begin(), what.between.end(), by_speed);
   }
   what.limits = limits_of(request, cutter, curve.largest_depth_m);
+  const auto surface_at = [&](double speed) {
+    return SurfaceAtSpeed(structures.front(), cutter, *request.load, speed, resolution_at(curve, speed),
+                          request.surface->added_compliance);
+  };
+  if (request.surface && request.surface->largest_error_m) {
+    what.limits.allowed_depth = [&](double speed, double depth_m) {
+      return surface_at(speed).deepest_within(*request.surface->largest_error_m, depth_m);
+    };
+  }
   what.best = best_points(all, what.limits, request.count, limit_at, threads);
   if (request.load) {
     for (const OperatingPoint& point : what.best)
       what.rates.push_back(cut_rate(cutter, *request.load, point.revolutions_per_s, point.depth_m));
   }
+  if (request.surface) {
+    for (const OperatingPoint& point : what.best)
+      what.surfaces.push_back(surface_at(point.revolutions_per_s).at(point.depth_m));
+  }
+  what.limits.allowed_depth = {};  // what it refers to ends here
   return what;
 }
 

@@ -10,6 +10,7 @@
 #include "milling/lobes.h"
 #include "milling/operating_points.h"
 #include "milling/structure.h"
+#include "milling/surface.h"
 
 namespace stablecut::milling {
 
@@ -23,6 +24,12 @@ struct LimitCurve {
 LimitCurve limit_curve(const StabilityChart& chart, const std::vector<double>& revolutions_per_s,
                        StabilityMethod method, double largest_depth_m);
 
+/// Of the surfaces that cuts leave.
+struct SurfaceRequest {
+  Eigen::Matrix2d added_compliance = Eigen::Matrix2d::Zero();  ///< as SurfaceAtSpeed's
+  std::optional<double> largest_error_m;                       ///< of the wall's location, either way
+};
+
 /// What is asked of the best points.
 struct RunRequest {
   std::size_t count = 5;            ///< points at most
@@ -30,15 +37,17 @@ struct RunRequest {
   double speed_share = 0.02;        ///< as OperatingLimits'
   std::optional<CuttingLoad> load;  ///< needed for rates; then the cutter has a diameter
   std::optional<double> largest_power_w, largest_torque_n_m;  ///< need the load
+  std::optional<SurfaceRequest> surface;                      ///< needs the load; of the first structure
 };
 
 struct WhatToRun {
   /// The lowest limit of all speeds; none: stable to the largest depth.
   std::optional<LimitPoint> unconditional;
-  std::vector<LimitPoint> between;   ///< limits between the curve's speeds, by speed
-  OperatingLimits limits;            ///< that the best points keep
-  std::vector<OperatingPoint> best;  ///< best first
-  std::vector<CutRate> rates;        ///< of the best; empty without a feed
+  std::vector<LimitPoint> between;     ///< limits between the curve's speeds, by speed
+  OperatingLimits limits;              ///< that the best points keep
+  std::vector<OperatingPoint> best;    ///< best first
+  std::vector<CutRate> rates;          ///< of the best; empty without a feed
+  std::vector<SurfacePoint> surfaces;  ///< of the best; empty where not asked for
 };
 
 /// Stable for all structures. Limits between the curve's speeds are computed with as many points or intervals

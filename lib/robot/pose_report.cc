@@ -71,6 +71,7 @@ PoseReport report_pose(const Robot& robot, const JointAngles& angles, const Stif
   report.tool = pose.tool;
   report.redundancy_rad = redundancy_angle(pose.tool);
   report.score = stiffness_score(compliance, axes, task);
+  report.compliance = axes.transpose() * compliance * axes;
   report.principal_compliance = principal_compliances(compliance);
   // Rounding leaves about 1e-16 of the compliance where the arm cannot yield at all.
   const double rigid = kRigid * report.principal_compliance[0];

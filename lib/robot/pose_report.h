@@ -15,6 +15,7 @@ struct PoseReport {
   double redundancy_rad = 0;  ///< about the tool's own axis
   /// SI units; NaN where the arm cannot yield in a direction that the index takes into account.
   double score = 0;
+  Eigen::Matrix3d compliance;            ///< m/N, in the tool's frame
   Eigen::Vector3d principal_compliance;  ///< m/N, largest first; 0 where the arm cannot yield
   /// Along the tool's x, y, z, N/m; infinite where the arm cannot yield (at a singular pose).
   Eigen::Vector3d directional_stiffness;

@@ -109,6 +109,18 @@ Json optional_mm(const std::optional<double>& metres) {
   return metres ? Json(mm_from_metres(*metres)) : Json(nullptr);
 }
 
+// The path's offset that cancels the mean deflection normal to the feed moves the wall by as much.
+Json best_surface_to_json(const milling::SurfacePoint& surface) {
+  const Eigen::Vector2d& mean = surface.mean_deflection_m;
+  const auto um = [](std::optional<double> metres) { return metres ? Json(*metres * 1e6) : Json(nullptr); };
+  return {{"location_error_um", um(surface.location_error_m)},
+          {"peak_vibration_um", surface.peak_vibration_m * 1e6},
+          {"mean_feed_um", mean.x() * 1e6},
+          {"mean_normal_um", mean.y() * 1e6},
+          {"offset_um", {-mean.x() * 1e6, -mean.y() * 1e6}},
+          {"location_error_with_offset_um", um(surface.error_with_offset_m)}};
+}
+
 Json what_to_run_to_json(const milling::WhatToRun& what) {
   Json document = {{"depth_margin", what.limits.depth_share}, {"speed_margin", what.limits.speed_share}};
   document["unconditional"] = {{"depth_mm", nullptr}};
@@ -143,6 +155,7 @@ Json what_to_run_to_json(const milling::WhatToRun& what) {
       item["power_w"] = what.rates[i].power_w;
       item["torque_n_m"] = what.rates[i].torque_n_m;
     }
+    if (!what.surfaces.empty()) item["surface"] = best_surface_to_json(what.surfaces[i]);
     document["best"].push_back(std::move(item));
   }
   return document;

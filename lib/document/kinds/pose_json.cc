@@ -31,6 +31,9 @@ Json to_json(const robot::PoseReport& report, const robot::StiffnessTask& task) 
   for (const double stiffness : report.directional_stiffness)
     directional.push_back(number_or_null(stiffness));
   pose["stiffness_n_per_m"] = std::move(directional);
+  pose["compliance_um_per_n"] = Json::array();
+  for (const auto& row : report.compliance.rowwise())
+    pose["compliance_um_per_n"].push_back(to_json(Eigen::Vector3d(row * 1e6)));
   pose["deflection_um"] = nullptr;  // without a force
   if (report.deflection_m) {
     pose["deflection_um"] = report.deflection_m->norm() * 1e6;
@@ -199,6 +202,28 @@ Json evaluation_to_json(const PoseDocument& document) {
   return {{"format", "stablecut/pose/1"},
           {"index", index_to_json(*document.task.index)},
           {"evaluated", std::move(evaluated)}};
+}
+
+Eigen::Matrix3d tool_compliance(const Json& document, const Source& source) {
+  const Node root = document_root(document, source, "pose");
+  Node pose = root;
+  if (root.has("evaluated")) {
+    const auto poses = root.at("evaluated").items();
+    if (poses.size() != 1) root.at("evaluated").fail("expected one pose");
+    pose = poses.front();
+  } else {
+    pose = root.at("best");
+  }
+  Eigen::Matrix3d compliance;
+  const Node matrix = pose.at("compliance_um_per_n");
+  const auto rows = matrix.items(3);
+  if (rows.size() != 3) matrix.fail("expected 3 rows of 3 numbers");
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::VectorXd row = rows[i].numbers();
+    if (row.size() != 3) rows[i].fail("expected 3 numbers");
+    compliance.row(i) = row.transpose() * 1e-6;
+  }
+  return compliance;
 }
 
 Json pose_map_to_json(const robot::PoseMap& map, const robot::PoseTask& task, const PlaneDocument& plane) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "document/text/json_text.h"
+#include "document/text/node.h"
 #include "robot/pose_report.h"
 #include "robot/pose_search.h"
 #include "robot/pose_standing.h"
@@ -42,6 +43,10 @@ Json pose_report_to_json(const robot::PoseReport& report, const robot::Stiffness
 /// The documents without provenance.
 Json pose_to_json(const PoseDocument& document, const robot::Robot& robot);
 Json evaluation_to_json(const PoseDocument& document);
+/// The compliance of a pose document's best pose, or of the only one that was evaluated, in the tool's frame,
+/// m/N.
+Eigen::Matrix3d tool_compliance(const Json& document, const Source& source);
+
 Json pose_map_to_json(const robot::PoseMap& map, const robot::PoseTask& task, const PlaneDocument& plane);
 
 }  // namespace stablecut::document
