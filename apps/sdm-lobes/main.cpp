@@ -96,8 +96,7 @@ class SdmLobes : public cli::Tool {
     const document::Input table = read_main_input(cli::InputForm::kJson);
     const dynamics::ModalModel all_modes = document::modal_table_from_json(table.document, table.source);
     const dynamics::ModalModel model = modes_.model(all_modes, table.source.name);
-    std::vector<milling::TipStructure> structures = {
-        structure_of(model, table.source, [this](const std::string& text) { warn(text); })};
+    std::vector<milling::TipStructure> structures = {structure_in(model, table.source)};
     const milling::Cutter& cutter = cut_.cut().cutter;
     const milling::RunRequest request = surface_.completed(asked, model, reader);
 
@@ -151,14 +150,20 @@ class SdmLobes : public cli::Tool {
                    "--shard: expected --per-mode and --points with --merge, not with a part");
   }
 
+  milling::TipStructure structure_in(const dynamics::ModalModel& model,
+                                     const document::Source& source) const {
+    return structure_of(model, source, cut_.cut().cutter.is_axial(),
+                        [this](const auto& text) { warn(text); });
+  }
+
   void read_more_tables(const std::string& first, std::vector<milling::TipStructure>& structures,
                         document::LobesDocument& lobes) {
     if (more_tables_.empty()) return;
     lobes.tables = {first};
     for (const std::string& path : more_tables_) {
       const document::Input table = read_input(path, cli::InputForm::kJson);
-      structures.push_back(structure_of(document::modal_table_from_json(table.document, table.source),
-                                        table.source, [this](const std::string& text) { warn(text); }));
+      structures.push_back(
+          structure_in(document::modal_table_from_json(table.document, table.source), table.source));
       lobes.tables.push_back(table.source.name);
     }
   }
@@ -207,16 +212,6 @@ class SdmLobes : public cli::Tool {
                                                          static_cast<unsigned>(seed_.value_or(1))),
                                    axes.revolutions_per_s, axes.depths_m, lobes.chart.resolution,
                                    !limit_only_, threads(), [&](double share) { bar.show(share); });
-  }
-
-  // The limits as the document has them: a chart put together from parts has only these.
-  static milling::LimitCurve written_limits(const document::LobesDocument& lobes, const ChartAxes& axes) {
-    milling::LimitCurve curve =
-        milling::limit_curve(lobes.chart, axes.revolutions_per_s, lobes.scheme.method, axes.depths_m.back());
-    for (milling::LimitPoint& point : curve.points) {
-      if (point.depth_m) point.depth_m = document::as_written(*point.depth_m);
-    }
-    return curve;
   }
 
   void warn_if_not_converged(const document::LobesDocument& lobes) const {

@@ -60,8 +60,8 @@ void CutOptions::read(const Reader& read_input) {
 void CutOptions::check_method(const std::string& method) const {
   const milling::Cutter& cutter = cut_.cutter;
   cli::refuse_if(
-      method == "sdm" && (!cutter.equal_pitch() || cutter.lag_rad_per_m != 0 || cutter.damping_n_per_m > 0),
-      "--method: sdm: expected straight teeth of equal pitch without process damping");
+      method == "sdm" && (!cutter.equal_pitch() || cutter.changes_with_depth() || cutter.damping_n_per_m > 0),
+      "--method: sdm: expected straight teeth of equal pitch without corners and process damping");
 }
 
 document::Json CutOptions::as_used(const Range& speed_rpm, const Range& depth_mm) const {
@@ -121,22 +121,33 @@ ChartAxes::ChartAxes(const document::LobesDocument& lobes) {
 }
 
 milling::TipStructure structure_of(const dynamics::ModalModel& model, const document::Source& source,
-                                   const std::function<void(const std::string&)>& warn) {
+                                   bool is_axial, const std::function<void(const std::string&)>& warn) {
   if (model.dof("x") < 0 && model.dof("y") < 0) {
     throw document::DataError(source.name, "/dofs", document::Json(model.dofs).dump(),
                               "expected x, y or both");
   }
-  milling::TipStructure structure = milling::tip_structure(model);
+  milling::TipStructure structure = milling::tip_structure(model, is_axial);
   if (structure.modes() == 0) {
     throw document::DataError(
         source.name, "/modes", "",
         "expected at least one mode that a force in x or y drives and that moves x or y");
   }
   for (const std::string& dof : model.dofs) {
-    if (dof != "x" && dof != "y")
-      warn(source.name + ": /dofs: \"" + dof + "\": left out: only x and y take part in chatter here");
+    if (dof != "x" && dof != "y" && !(is_axial && dof == "z"))
+      warn(source.name + ": /dofs: \"" + dof + "\": left out: " +
+           (dof == "z" ? "this cut does not act along the axis"
+                       : "only x, y and z take part in chatter here"));
   }
   return structure;
+}
+
+milling::LimitCurve written_limits(const document::LobesDocument& lobes, const ChartAxes& axes) {
+  milling::LimitCurve curve =
+      milling::limit_curve(lobes.chart, axes.revolutions_per_s, lobes.scheme.method, axes.depths_m.back());
+  for (milling::LimitPoint& point : curve.points) {
+    if (point.depth_m) point.depth_m = document::as_written(*point.depth_m);
+  }
+  return curve;
 }
 
 void RunOptions::declare(CLI::App& app) {

@@ -70,10 +70,13 @@ struct ChartAxes {
   explicit ChartAxes(const document::LobesDocument& lobes);
 };
 
-/// The structure of a table's modes. Throws DataError where it has none that can chatter; `warn` gets what is
-/// left out.
+/// The structure of a table's modes; with z where the cut acts along the axis. Throws DataError where it has
+/// none that can chatter; `warn` gets what is left out.
 milling::TipStructure structure_of(const dynamics::ModalModel& model, const document::Source& source,
-                                   const std::function<void(const std::string&)>& warn);
+                                   bool is_axial, const std::function<void(const std::string&)>& warn);
+
+/// The limits as the document has them: a chart put together from parts has only these.
+milling::LimitCurve written_limits(const document::LobesDocument& lobes, const ChartAxes& axes);
 
 /// What is asked of the best points.
 class RunOptions {

@@ -150,6 +150,23 @@ refused 64 '--surface: expected a chart with its grid' sdm-lobes "$table" --cut 
 jq '.runout_um = [1, 2, 3]' fed.json >refused.json
 refused 65 '/runout_um: a list of 3: expected 2 numbers, one for each tooth' sdm-lobes "$table" --cut refused.json "${small[@]}"
 
+# The axis: a mode along z that a lead angle couples in; without one it is left out.
+jq '.dofs += ["z"] | .modes[] |= (.psi_r += [.psi_r[0]] | .psi_l += [.psi_l[0]])' "$table" >axial-table.json
+sdm-lobes axial-table.json --cut "$cut" "${small[@]}" -o upright.json 2>said
+check "z without a force along it: said" grep -q '"z": left out: this cut does not act along the axis' said
+check_jq "and the chart is that of the plane" upright.json '.spectral_radius == $one[0].spectral_radius' --slurpfile one one.json
+jq '.lead_angle_deg = 45 | .ka_n_per_mm2 = 100' "$cut" >inclined.json
+sdm-lobes axial-table.json --cut inclined.json "${small[@]}" -o inclined-out.json 2>said
+check "z that takes part: nothing to say" test ! -s said
+sdm-lobes "$table" --cut inclined.json "${small[@]}" -o plane.json
+check_jq "the axis matters" inclined-out.json '.spectral_radius != $plane[0].spectral_radius' --slurpfile plane plane.json
+jq '.corner_radius_mm = 1e-7' inclined.json >corner.json
+sdm-lobes axial-table.json --cut corner.json "${small[@]}" -o corner-out.json
+check_jq "hardly a corner is none" corner-out.json '[.spectral_radius, $one[0].spectral_radius]
+  | map(flatten) | transpose | all((.[0] - .[1]) | fabs < 1e-6)' --slurpfile one inclined-out.json
+jq '.lead_angle_deg = 91' "$cut" >wrong.json
+refused 65 'wrong.json: /lead_angle_deg: 91: expected a lead angle' sdm-lobes "$table" --cut wrong.json "${small[@]}"
+
 jq '.helix_deg = 1e-7 | .pitch_deg = [180, 180]' "$cut" >plain.json
 sdm-lobes "$table" --cut plain.json "${small[@]}" -o plain-out.json
 check_jq "hardly any helix is none" plain-out.json '[.spectral_radius, $one[0].spectral_radius]

@@ -153,10 +153,10 @@ class Builder {
 
   // Rows of the last node.
   void add_rows(DirectionalFactors factors, bool of_velocity) {
-    if (structure_.directions() == 1 && factors.sense.rows() > 1) {
-      // A structure that moves in one direction senses one displacement.
-      factors.drive = factors.drive.col(structure_.axes[0]).eval();
-      factors.sense = factors.sense.row(structure_.axes[0]).eval();
+    if (factors.sense.rows() > 1) {
+      // Each direction for itself: those in which the structure moves.
+      factors.drive = factors.drive(Eigen::all, structure_.axes).eval();
+      factors.sense = factors.sense(structure_.axes, Eigen::all).eval();
     }
     Eigen::MatrixXd& drive = result_.nodes.back().drive;
     const Eigen::Index before = drive.cols(), count = factors.drive.cols();

@@ -28,7 +28,7 @@ struct CollocationNode {
 struct SensedRow {
   std::size_t node = 0;  ///< index of its node
   /// [directions]: the row senses direction * r, or direction * r'.
-  Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 2> direction;
+  Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 3> direction;
   bool is_velocity = false;
   /// The row that sensed the surface when it was cut, one delay earlier; -1 for a velocity.
   Eigen::Index cut_by = -1;

@@ -16,47 +16,75 @@ namespace {
 // is in cut, as in slotting with an even number of teeth. Radians.
 constexpr double kSameAngle = 1e-12;
 
-// Kt and Kr, N/m2; or those of process damping in their place, N s/m2.
+// Force per depth along the cut, inwards and along the axis: of a displacement outwards, and of one along the
+// axis. N/m2, or of process damping N s/m2.
 struct ForceCoefficients {
-  double tangential, radial;
+  double tangential = 0, inward = 0, axial = 0;
+  double tangential_z = 0, inward_z = 0, axial_z = 0;
+  double sensed_z = 0;  // of a straight edge: the chip of a displacement along the axis, of one outwards
 };
 
-// [RobotMillingThesis, eq. 6-8] for one tooth, turned by the feed angle, from s c, s^2 and c^2 (s = sin phi,
-// c = cos phi): their values at an angle, or their integrals.
-Eigen::Matrix2d directional_matrix(const Cutter& cutter, const ForceCoefficients& k, double sc, double ss,
-                                   double cc) {
-  Eigen::Matrix2d a;
-  a << -k.tangential * sc - k.radial * ss, -k.tangential * cc - k.radial * sc,  //
-      k.tangential * ss - k.radial * sc, k.tangential * sc - k.radial * cc;
+// A chip h = n r is normal to the edge, n = (sin kappa sin phi, sin kappa cos phi, -cos kappa), and as wide
+// as the edge is long, depth / sin kappa. kt is along the cut, kr against n, and ka along the edge's own
+// axis, n turned by 90 degrees towards the spindle [Altintas2012].
+ForceCoefficients coefficients_of(double kt, double kr, double ka, const EdgeMeans& edge) {
+  return {kt,
+          kr * edge.sine - ka * edge.cosine,
+          kr * edge.cosine + ka * edge.sine,
+          -kt * edge.cotangent,
+          -kr * edge.cosine + ka * edge.cosine_cotangent,
+          -kr * edge.cosine_cotangent - ka * edge.cosine,
+          -edge.cotangent};
+}
+
+// Values at an angle phi, or their integrals.
+struct TurnFunctions {
+  double sc, ss, cc, s, c, one;
+};
+
+Eigen::Matrix3d feed_turn(const Cutter& cutter) {
+  return Eigen::AngleAxisd(cutter.feed_angle_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+}
+
+// [RobotMillingThesis, eq. 6-8] for one tooth, with the axis, turned by the feed angle.
+Eigen::Matrix3d directional_matrix(const Cutter& cutter, const ForceCoefficients& k, const TurnFunctions& f) {
+  Eigen::Matrix3d a;
+  a << -k.tangential * f.sc - k.inward * f.ss, -k.tangential * f.cc - k.inward * f.sc,
+      -k.tangential_z * f.c - k.inward_z * f.s,  //
+      k.tangential * f.ss - k.inward * f.sc, k.tangential * f.sc - k.inward * f.cc,
+      k.tangential_z * f.s - k.inward_z * f.c,  //
+      k.axial * f.s, k.axial * f.c, k.axial_z * f.one;
   if (cutter.feed_angle_rad == 0) return a;
-  const Eigen::Rotation2Dd feed(cutter.feed_angle_rad);
-  return feed.toRotationMatrix() * a * feed.toRotationMatrix().transpose();
+  return feed_turn(cutter) * a * feed_turn(cutter).transpose();
 }
 
 // The integral of one tooth's matrix over the angles from middle - width / 2 to middle + width / 2.
-Eigen::Matrix2d integrated_matrix(const Cutter& cutter, const ForceCoefficients& k, double middle,
+Eigen::Matrix3d integrated_matrix(const Cutter& cutter, const ForceCoefficients& k, double middle,
                                   double width) {
-  const double sine = std::sin(width);
+  const double sine = std::sin(width), chord = 2 * std::sin(width / 2);
   const double turn = sine * std::cos(2 * middle) / 2;
-  return directional_matrix(cutter, k, sine * std::sin(2 * middle) / 2, width / 2 - turn, width / 2 + turn);
+  return directional_matrix(cutter, k,
+                            {sine * std::sin(2 * middle) / 2, width / 2 - turn, width / 2 + turn,
+                             chord * std::sin(middle), chord * std::cos(middle), width});
 }
 
 // The coefficients of teeth whose tips are at these angles, and whose edges lag by `lag_rad` at the top of
 // the cut: the mean over the depth.
 DirectionalFactors directional_factors(const Cutter& cutter, const ForceCoefficients& k,
                                        const std::vector<double>& angles, double lag_rad) {
-  if (angles.size() == 1 && lag_rad == 0) {
-    // [RobotMillingThesis, eqs. 6-2 and 6-4]: the chip thickness h = s x + c y, and the force of a chip.
+  if (angles.size() == 1 && lag_rad == 0 && cutter.corner_radius_m == 0) {
+    // [RobotMillingThesis, eqs. 6-2 and 6-4]: the chip thickness, here h / sin kappa, and the force of a
+    // chip.
     const double s = std::sin(angles[0]), c = std::cos(angles[0]);
-    const Eigen::Matrix2d feed = Eigen::Rotation2Dd(cutter.feed_angle_rad).toRotationMatrix();
-    const Eigen::Vector2d force(-c * k.tangential - s * k.radial, s * k.tangential - c * k.radial);
-    return {feed * force, Eigen::RowVector2d(s, c) * feed.transpose()};
+    const Eigen::Matrix3d feed = feed_turn(cutter);
+    const Eigen::Vector3d force(-c * k.tangential - s * k.inward, s * k.tangential - c * k.inward, k.axial);
+    return {feed * force, Eigen::RowVector3d(s, c, k.sensed_z) * feed.transpose()};
   }
-  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const double phi : angles) {
     if (lag_rad == 0) {
       const double s = std::sin(phi), c = std::cos(phi);
-      sum += directional_matrix(cutter, k, s * c, s * s, c * c);
+      sum += directional_matrix(cutter, k, {s * c, s * s, c * c, s, c, 1});
       continue;
     }
     // The part of the edge that is in cut. The whole edge is the lag exactly, which the ends' difference,
@@ -68,7 +96,7 @@ DirectionalFactors directional_factors(const Cutter& cutter, const ForceCoeffici
       sum += integrated_matrix(cutter, k, (low + high) / 2, whole ? std::abs(lag_rad) : high - low) /
              std::abs(lag_rad);
   }
-  return {sum, Eigen::Matrix2d::Identity()};
+  return {sum, Eigen::Matrix3d::Identity()};
 }
 
 // Sorted, and each once.
@@ -92,6 +120,7 @@ struct Pass {
   double lag_rad;                  // at the top of the cut
   double first_rad, last_rad;      // tip angles between which a part of the tooth is in cut
   std::vector<double> events_rad;  // tip angles at which the tip or the top enters or leaves
+  EdgeMeans edge;
   ForceCoefficients cutting, damping;
 
   Pass(const Cutter& of, double revolutions_per_s, double depth_m)
@@ -99,12 +128,12 @@ struct Pass {
         lag_rad(of.lag_rad_per_m * depth_m),
         first_rad(of.entry_rad + std::min(0.0, lag_rad)),
         last_rad(of.exit_rad + std::max(0.0, lag_rad)),
-        cutting{of.kt_n_per_m2, of.kr_n_per_m2},
-        damping{0, 0} {
+        edge(edge_means(of, depth_m)),
+        cutting(coefficients_of(of.kt_n_per_m2, of.kr_n_per_m2, of.ka_n_per_m2, edge)) {
     events_rad = distinct({of.entry_rad, of.exit_rad, of.entry_rad + lag_rad, of.exit_rad + lag_rad});
     if (of.damping_n_per_m > 0) {
-      damping.radial = of.damping_n_per_m / (kPi * of.diameter_m * revolutions_per_s);
-      damping.tangential = of.damping_friction * damping.radial;
+      const double flank = of.damping_n_per_m / (kPi * of.diameter_m * revolutions_per_s);
+      damping = coefficients_of(of.damping_friction * flank, flank, 0, edge);
     }
   }
 
@@ -119,7 +148,7 @@ struct Pass {
       };
     };
     piece.cutting = coefficients(cutting);
-    if (damping.radial > 0) piece.damping = coefficients(damping);
+    if (cutter.damping_n_per_m > 0) piece.damping = coefficients(damping);
     return piece;
   }
 };
@@ -254,15 +283,42 @@ CutSchedule tooth_arcs(const Cutter& cutter, double revolutions_per_s) {
   return schedule;
 }
 
-Eigen::Matrix2d mean_directional_coefficients(const Cutter& cutter, double from_rad, double to_rad) {
+EdgeMeans edge_means(const Cutter& cutter, double depth_m) {
+  const auto at = [](double kappa) -> EdgeMeans {
+    if (kappa == kPi / 2) return {};
+    const double s = std::sin(kappa), c = std::cos(kappa);
+    return {s, c, c / s, c * c / s, 1 / s};
+  };
+  const double radius = cutter.corner_radius_m;
+  if (radius == 0) return at(cutter.lead_rad);
+  // On the corner kappa grows from 0 at the tip, where the height is radius (1 - cos kappa).
+  const double top = std::acos(std::clamp(1 - depth_m / radius, -1.0, 1.0));
+  const double kappa = std::min(cutter.lead_rad, top);
+  const double height = 2 * radius * std::sin(kappa / 2) * std::sin(kappa / 2);
+  const double s = std::sin(kappa), c = std::cos(kappa);
+  if (height == 0) return {0, 1, 0, 0, 0};  // no edge
+  const EdgeMeans corner{radius * (kappa - s * c) / 2, radius * s * s / 2, radius * s,
+                         radius * (kappa + s * c) / 2, radius * kappa};
+  const double beyond = top <= cutter.lead_rad ? 0 : depth_m - height, depth = height + beyond;
+  const EdgeMeans edge = at(cutter.lead_rad);
+  return {(corner.sine + beyond * edge.sine) / depth, (corner.cosine + beyond * edge.cosine) / depth,
+          (corner.cotangent + beyond * edge.cotangent) / depth,
+          (corner.cosine_cotangent + beyond * edge.cosine_cotangent) / depth,
+          (corner.inverse_sine + beyond * edge.inverse_sine) / depth};
+}
+
+Eigen::Matrix3d mean_directional_coefficients(const Cutter& cutter, double from_rad, double to_rad,
+                                              double depth_m) {
   const double pitch = cutter.mean_pitch_rad();
-  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  const ForceCoefficients k = coefficients_of(cutter.kt_n_per_m2, cutter.kr_n_per_m2, cutter.ka_n_per_m2,
+                                              edge_means(cutter, depth_m));
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   const int first = static_cast<int>(std::floor((cutter.entry_rad - to_rad) / pitch));
   const int last = static_cast<int>(std::ceil((cutter.exit_rad - from_rad) / pitch));
   for (int tooth = first; tooth <= last; ++tooth) {
     const double a = std::max(cutter.entry_rad, from_rad + tooth * pitch);
     const double b = std::min(cutter.exit_rad, to_rad + tooth * pitch);
-    if (a < b) sum += integrated_matrix(cutter, {cutter.kt_n_per_m2, cutter.kr_n_per_m2}, (a + b) / 2, b - a);
+    if (a < b) sum += integrated_matrix(cutter, k, (a + b) / 2, b - a);
   }
   return sum / (to_rad - from_rad);
 }

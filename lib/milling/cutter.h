@@ -12,12 +12,15 @@
 #include <functional>
 #include <vector>
 
+#include "base/units.h"
+
 namespace stablecut::milling {
 
 struct Cutter {
   int teeth = 0;              ///< N, at least 1
   double kt_n_per_m2 = 0;     ///< tangential cutting force coefficient
   double kr_n_per_m2 = 0;     ///< radial cutting force coefficient
+  double ka_n_per_m2 = 0;     ///< axial cutting force coefficient, from the tip to the spindle
   double entry_rad = 0;       ///< phi_st, 0 <= entry < exit
   double exit_rad = 0;        ///< phi_ex, at most pi
   double feed_angle_rad = 0;  ///< of the feed (the cut frame's X), from the structure's +x towards +y
@@ -31,7 +34,15 @@ struct Cutter {
   double damping_n_per_m = 0;  ///< C
   double damping_friction = 0;
 
+  /// Lead angle of the edge: from the plane normal to the axis; and the radius of the corner at its tip.
+  double lead_rad = kPi / 2;
+  double corner_radius_m = 0;
+
   bool equal_pitch() const { return pitch_rad.empty(); }
+  /// Whether a motion along the axis, or a force along it, takes part.
+  bool is_axial() const { return ka_n_per_m2 != 0 || lead_rad != kPi / 2 || corner_radius_m > 0; }
+  /// Whether coefficients per depth depend on the depth.
+  bool changes_with_depth() const { return lag_rad_per_m != 0 || corner_radius_m > 0; }
   double mean_pitch_rad() const;
   /// T = 60 / (N Omega), s: of the mean pitch.
   double tooth_period_s(double revolutions_per_s) const;
@@ -41,12 +52,20 @@ struct Cutter {
 /// from acos(2 ae/D - 1) to pi.
 void set_immersion(Cutter& cutter, bool up_milling, double radial_immersion);
 
-/// A matrix of coefficients as the product drive * sense, in the structure's frame: the force per depth is
-/// drive * (sense * r), r a displacement or a velocity. The force of one straight tooth depends on the chip
-/// thickness only, so that its `sense` has one row; that of several, or of helical ones, on both directions.
+/// Means over the depth of cut of functions of the angle kappa between the edge and the plane normal to the
+/// axis: 90 degrees for an end mill.
+struct EdgeMeans {
+  double sine = 1, cosine = 0, cotangent = 0, cosine_cotangent = 0, inverse_sine = 1;
+};
+EdgeMeans edge_means(const Cutter& cutter, double depth_m);
+
+/// A matrix of coefficients as the product drive * sense, in the structure's frame with z from the tip to the
+/// spindle: the force per depth is drive * (sense * r), r a displacement or a velocity. The force of one
+/// straight tooth depends on the chip thickness only, so that its `sense` has one row; that of several, or of
+/// helical ones or such with a corner, on all directions: then it is the identity.
 struct DirectionalFactors {
-  Eigen::Matrix2Xd drive;                          ///< [2 x 1 or 2] N/m2, or N s/m2
-  Eigen::Matrix<double, Eigen::Dynamic, 2> sense;  ///< [1 or 2 x 2]
+  Eigen::Matrix3Xd drive;                          ///< [3 x 1 or 3] N/m2, or N s/m2
+  Eigen::Matrix<double, Eigen::Dynamic, 3> sense;  ///< [1 or 3 x 3]
 };
 
 /// A part of the period over which the coefficients are smooth.
@@ -92,7 +111,8 @@ HelicalArc helical_arc(const Cutter& cutter, double largest_depth_m);
 CutSchedule helical_pieces(const Cutter& cutter, double depth_m, double from_rad);
 
 /// The exact mean of A while tooth 1 turns through the angles [from, to], for straight teeth of equal pitch
-/// [RobotMillingThesis, eq. 6-29]. Teeth may enter or leave in between. N/m2.
-Eigen::Matrix2d mean_directional_coefficients(const Cutter& cutter, double from_rad, double to_rad);
+/// at a depth [RobotMillingThesis, eq. 6-29]. Teeth may enter or leave in between. N/m2.
+Eigen::Matrix3d mean_directional_coefficients(const Cutter& cutter, double from_rad, double to_rad,
+                                              double depth_m);
 
 }  // namespace stablecut::milling

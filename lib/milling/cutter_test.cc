@@ -1,5 +1,6 @@
 #include "milling/cutter.h"
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -8,6 +9,7 @@
 #include "milling/milling_fixtures_test.h"
 #include "milling/spectral.h"
 #include "numerics/legendre.h"
+#include "numerics/random.h"
 
 using namespace stablecut;
 using namespace stablecut::milling;
@@ -23,7 +25,9 @@ Cutter cutter_with(int teeth, bool up, double immersion) {
   return cutter;
 }
 
-Eigen::Matrix2d coefficients(const DirectionalFactors& factors) { return factors.drive * factors.sense; }
+Eigen::Matrix2d coefficients(const DirectionalFactors& factors) {
+  return (factors.drive * factors.sense).topLeftCorner<2, 2>();
+}
 
 // The coefficients over a period, integrated piece by piece.
 Eigen::Matrix2d integrated(const CutSchedule& schedule) {
@@ -63,11 +67,14 @@ TEST_CASE("the pieces hold all that is cut, whatever the pitch and the helix") {
       cutter.feed_angle_rad = 0.7;
       INFO(teeth << " teeth, immersion " << immersion);
       const double pitch = cutter.mean_pitch_rad();
-      const Eigen::Matrix2d mean = mean_directional_coefficients(cutter, 0, pitch);
+      const Eigen::Matrix2d mean =
+          mean_directional_coefficients(cutter, 0, pitch, 1e-3).topLeftCorner<2, 2>();
       // The mean over a pitch is the mean of the means over its parts, teeth entering inside a part or not.
       Eigen::Matrix2d parts = Eigen::Matrix2d::Zero();
       for (int i = 0; i < 7; ++i)
-        parts += mean_directional_coefficients(cutter, i * pitch / 7, (i + 1) * pitch / 7) / 7;
+        parts += mean_directional_coefficients(cutter, i * pitch / 7, (i + 1) * pitch / 7, 1e-3)
+                     .topLeftCorner<2, 2>() /
+                 7;
       CHECK((parts - mean).norm() < 1e-12 * mean.norm());
       for (const double lag : {0.0, 30.0, -90.0, 900.0, 4000.0}) {
         cutter.lag_rad_per_m = lag;
@@ -133,4 +140,52 @@ TEST_CASE(
   for (const double depth : {0.2e-3, 1e-3})
     CHECK(spectral_radius(SpectralMap(structure, cutter, 100, 24), depth) ==
           Approx(spectral_radius(SpectralMap(structure, other, 100, 24), depth)).epsilon(1e-6));
+}
+
+TEST_CASE("an inclined edge and a corner: chips normal to the edge, written out over the height") {
+  std::mt19937_64 generator(3);
+  for (int n = 0; n < 12; ++n) {
+    Cutter cutter = fixtures::benchmark_cutter(true, 1, 1);
+    cutter.ka_n_per_m2 = 150e6;
+    cutter.lead_rad = numerics::uniform(generator, 0.3, kPi / 2);
+    cutter.corner_radius_m = n < 4 ? 0 : numerics::uniform(generator, 0.2e-3, 3e-3);
+    cutter.feed_angle_rad = n % 2 == 0 ? 0 : 0.7;
+    const double depth = n == 11 ? 1e-5 : 1e-3, phi = 0.9;
+    const Eigen::AngleAxisd feed(cutter.feed_angle_rad, Eigen::Vector3d::UnitZ());
+    Eigen::Matrix3d expected = Eigen::Matrix3d::Zero();
+    constexpr int kSlices = 20000;
+    for (int i = 0; i < kSlices; ++i) {
+      // Slices are finer at the tip, where the edge is flat.
+      const double share = (i + 0.5) / kSlices, height = depth * share * share, weight = 2 * share / kSlices;
+      const double at_corner =
+          cutter.corner_radius_m > 0 ? std::acos(std::max(1 - height / cutter.corner_radius_m, -1.0)) : kPi;
+      const double kappa = std::min(cutter.lead_rad, at_corner);
+      const Eigen::Vector3d along(-std::cos(phi), std::sin(phi), 0);
+      const Eigen::Vector3d normal(std::sin(kappa) * std::sin(phi), std::sin(kappa) * std::cos(phi),
+                                   -std::cos(kappa));
+      const Eigen::Vector3d edge = along.cross(normal) * (along.cross(normal).z() > 0 ? 1 : -1);
+      const Eigen::Vector3d force =
+          cutter.kt_n_per_m2 * along - cutter.kr_n_per_m2 * normal + cutter.ka_n_per_m2 * edge;
+      expected += weight / std::sin(kappa) * force * normal.transpose();
+    }
+    expected = feed * expected * feed.inverse();
+    const DirectionalFactors factors = way_of_tooth(cutter, 100, depth)[0].cutting(phi);
+    INFO("case " << n);
+    CHECK(factors.sense.rows() == (n < 4 ? 1 : 3));
+    CHECK((factors.drive * factors.sense - expected).norm() < 2e-5 * expected.norm());
+    // Slices of a lag and the mean over a turn have the same coefficients.
+    cutter.feed_angle_rad = 0;
+    const Eigen::Matrix3d mean = mean_directional_coefficients(cutter, phi - 1e-4, phi + 1e-4, depth);
+    CHECK((feed * mean * feed.inverse() - factors.drive * factors.sense).norm() < 1e-6 * mean.norm());
+  }
+}
+
+TEST_CASE("in a plane an inclined edge is an upright one of another radial coefficient") {
+  const TipStructure structure = tip_structure(fixtures::coupled_modes(3, 4));
+  Cutter inclined = fixtures::benchmark_cutter(true, 0.7, 3), upright = inclined;
+  inclined.ka_n_per_m2 = 100e6;
+  inclined.lead_rad = 0.8;
+  upright.kr_n_per_m2 = inclined.kr_n_per_m2 * std::sin(0.8) - inclined.ka_n_per_m2 * std::cos(0.8);
+  const double radius = spectral_radius(SpectralMap(structure, upright, 100, 20), 1e-3);
+  CHECK(spectral_radius(SpectralMap(structure, inclined, 100, 20), 1e-3) == Approx(radius).epsilon(1e-12));
 }

@@ -51,16 +51,21 @@ std::vector<ChipLine> chip_of(const std::vector<ChipLine>& left_by) {
 
 // Harmonics of a tooth's force per depth over its own angle [RobotMillingThesis, eqs. 6-2 to 6-4; edges:
 // Altintas2012].
-Harmonics harmonics_of(const Cutter& cutter, const CuttingLoad& load, const Bite& bite) {
-  const double kt = cutter.kt_n_per_m2, kr = cutter.kr_n_per_m2;
-  const double along = kt * bite.offset_m + load.kte_n_per_m, across = kr * bite.offset_m + load.kre_n_per_m;
+Harmonics harmonics_of(const Cutter& cutter, const CuttingLoad& load, const EdgeMeans& edge,
+                       const Bite& bite) {
+  // Of a radial chip: along the cut, inwards, and along the axis.
+  const double kt = cutter.kt_n_per_m2;
+  const double kr = cutter.kr_n_per_m2 * edge.sine - cutter.ka_n_per_m2 * edge.cosine;
+  const double ka = cutter.kr_n_per_m2 * edge.cosine + cutter.ka_n_per_m2 * edge.sine;
+  const double along = kt * bite.offset_m + load.kte_n_per_m * edge.inverse_sine;
+  const double across = kr * bite.offset_m + load.kre_n_per_m - load.kae_n_per_m * edge.cotangent;
+  const double axial = ka * bite.offset_m + load.kae_n_per_m + load.kre_n_per_m * edge.cotangent;
   // sin = -i/2 e + ..., cos = 1/2 e + ..., sin^2 = 1/2 - 1/4 e^2 + ..., sin cos = -i/4 e^2 + ...
   const Complex sine = Complex(0, -0.5), cosine = 0.5, square = -0.25, product = Complex(0, -0.25);
   Harmonics h;
-  h.col(0) << -0.5 * kr * bite.slope_m, 0.5 * kt * bite.slope_m,
-      load.ka_n_per_m2 * bite.offset_m + load.kae_n_per_m, along;
-  h.col(1) << -along * cosine - across * sine, along * sine - across * cosine,
-      load.ka_n_per_m2 * bite.slope_m * sine, kt * bite.slope_m * sine;
+  h.col(0) << -0.5 * kr * bite.slope_m, 0.5 * kt * bite.slope_m, axial, along;
+  h.col(1) << -along * cosine - across * sine, along * sine - across * cosine, ka * bite.slope_m * sine,
+      kt * bite.slope_m * sine;
   h.col(2) << bite.slope_m * (-kt * product - kr * square), bite.slope_m * (kt * square - kr * product), 0, 0;
   return h;
 }
@@ -122,12 +127,13 @@ std::vector<Bite> bites(const Cutter& cutter, const CuttingLoad& load) {
   return all;
 }
 
-ForceCycle force_cycle(const Cutter& cutter, const CuttingLoad& load) {
+ForceCycle force_cycle(const Cutter& cutter, const CuttingLoad& load, double depth_m) {
+  const EdgeMeans edge = edge_means(cutter, depth_m);
   ForceCycle cycle;
   cycle.period_rad = alike(cutter, load) ? kTwoPi / cutter.teeth : kTwoPi;
   for (const Bite& bite : bites(cutter, load)) {
     TurningArc<4> arc{bite.entry_rad + bite.behind_rad, bite.exit_rad + bite.behind_rad,
-                      harmonics_of(cutter, load, bite)};
+                      harmonics_of(cutter, load, edge, bite)};
     for (int m = 1; m < 3; ++m) arc.harmonics.col(m) *= std::polar(1.0, -m * bite.behind_rad);
     cycle.arcs.push_back(arc);
   }

@@ -9,10 +9,9 @@
 
 namespace stablecut::milling {
 
-/// What the force of a chip needs beside the cutter: the feed, and what stability does not depend on.
+/// What the force of a chip needs beside the cutter: what stability does not depend on.
 struct CuttingLoad {
   double feed_per_tooth_m = 0;  ///< mean over the teeth
-  double ka_n_per_m2 = 0;       ///< axial cutting force coefficient
   double kte_n_per_m = 0;       ///< edge forces along the cut, across it and along the axis
   double kre_n_per_m = 0;
   double kae_n_per_m = 0;
@@ -47,7 +46,7 @@ struct Bite {
 /// tooth may cut nothing.
 std::vector<Bite> bites(const Cutter& cutter, const CuttingLoad& load);
 
-/// Turn 0: tooth 1 at phi = 0.
-ForceCycle force_cycle(const Cutter& cutter, const CuttingLoad& load);
+/// Turn 0: tooth 1 at phi = 0. At a depth, on which the force per depth depends where the edge has a corner.
+ForceCycle force_cycle(const Cutter& cutter, const CuttingLoad& load, double depth_m);
 
 }  // namespace stablecut::milling

@@ -12,16 +12,17 @@ using namespace stablecut::milling;
 
 namespace {
 
-// Of the benchmark: Kt = 600, Kr = 200 N/mm2.
+// Of the benchmark: Kt = 600, Kr = 200 N/mm2; Ka = 150.
 Cutter cutter_of(int teeth, double entry_deg, double exit_deg) {
   Cutter cutter = fixtures::benchmark_cutter(true, 1, teeth);
   cutter.entry_rad = radians_from_degrees(entry_deg);
   cutter.exit_rad = radians_from_degrees(exit_deg);
+  cutter.ka_n_per_m2 = 150e6;
   return cutter;
 }
 
 constexpr double kFeed = 0.1e-3;
-const CuttingLoad kLoad{kFeed, 150e6, 20e3, 30e3, 5e3, {}};
+const CuttingLoad kLoad{kFeed, 20e3, 30e3, 5e3, {}};
 
 // The force of straight teeth at a turn, written out: each tooth cuts what the teeth before it have left.
 Eigen::Vector3d plain_force(const Cutter& cutter, const CuttingLoad& load, double turn) {
@@ -47,7 +48,7 @@ Eigen::Vector3d plain_force(const Cutter& cutter, const CuttingLoad& load, doubl
                  across = cutter.kr_n_per_m2 * chip + load.kre_n_per_m;
     sum += Eigen::Vector3d(-std::cos(phi) * along - std::sin(phi) * across,
                            std::sin(phi) * along - std::cos(phi) * across,
-                           load.ka_n_per_m2 * chip + load.kae_n_per_m);
+                           cutter.ka_n_per_m2 * chip + load.kae_n_per_m);
   }
   return sum;
 }
@@ -59,7 +60,7 @@ TEST_CASE("mean force of a slot: the average force model") {
   for (const int teeth : {1, 2, 3, 5}) {
     const Cutter cutter = cutter_of(teeth, 0, 180);
     const double depth = 2e-3;
-    const ForceParts force = depth * force_cycle(cutter, kLoad).mean();
+    const ForceParts force = depth * force_cycle(cutter, kLoad, 1e-3).mean();
     const double quarter = teeth * depth / 4, edge = teeth * depth / kPi;
     CHECK(force.x() == Approx(-quarter * 200e6 * kFeed - edge * 30e3).epsilon(1e-12));
     CHECK(force.y() == Approx(quarter * 600e6 * kFeed + edge * 20e3).epsilon(1e-12));
@@ -87,7 +88,7 @@ TEST_CASE("force at a turn and its integral, also with unequal pitches and runou
       for (int j = 0; j < teeth; ++j)
         load.runout_m.push_back(numerics::uniform(generator, -1, 1) * kFeed * (n % 8 > 3 ? 1 : 0.1));
     }
-    const ForceCycle cycle = force_cycle(cutter, load);
+    const ForceCycle cycle = force_cycle(cutter, load, 1e-3);
     const double size = cutter.kt_n_per_m2 * kFeed * teeth;
     INFO("case " << n);
     for (int i = 0; i < 50; ++i) {
@@ -110,9 +111,9 @@ TEST_CASE("force at a turn and its integral, also with unequal pitches and runou
 TEST_CASE("feed and work do not depend on runout as long as all teeth cut") {
   const Cutter cutter = cutter_of(3, 30, 140);
   CuttingLoad load = kLoad;
-  const ForceParts plain = force_cycle(cutter, load).mean();
+  const ForceParts plain = force_cycle(cutter, load, 1e-3).mean();
   load.runout_m = {4e-6, -5e-6, 1e-6};
-  CHECK((plain - force_cycle(cutter, load).mean()).norm() < 1e-12 * plain.norm());
+  CHECK((plain - force_cycle(cutter, load, 1e-3).mean()).norm() < 1e-12 * plain.norm());
   // One tooth far out does the work of all, in chips three times as thick.
   load.runout_m = {0, 0, 1e-3};
   load.kte_n_per_m = load.kre_n_per_m = load.kae_n_per_m = 0;
@@ -121,5 +122,6 @@ TEST_CASE("feed and work do not depend on runout as long as all teeth cut") {
   CuttingLoad thick = load;
   thick.runout_m.clear();
   thick.feed_per_tooth_m *= 3;
-  CHECK((force_cycle(cutter, load).mean() - force_cycle(one, thick).mean()).norm() < 1e-12 * plain.norm());
+  CHECK((force_cycle(cutter, load, 1e-3).mean() - force_cycle(one, thick, 1e-3).mean()).norm() <
+        1e-12 * plain.norm());
 }

@@ -15,7 +15,8 @@ using Complex = std::complex<double>;
 
 ModesInCut modes_in_cut(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s) {
   const double omega = kTwoPi * revolutions_per_s;
-  const Eigen::Matrix2d feed = Eigen::Rotation2Dd(cutter.feed_angle_rad).toRotationMatrix();
+  const Eigen::Matrix3d feed =
+      Eigen::AngleAxisd(cutter.feed_angle_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   const Eigen::MatrixXd into_cut = feed.transpose()(Eigen::all, structure.axes);
   return {structure.lambda / omega, into_cut * structure.psi_r, into_cut * structure.psi_l / omega};
 }
@@ -26,16 +27,16 @@ ForcedVibration::ForcedVibration(const TipStructure& structure, const Cutter& cu
   const ModesInCut modes = modes_in_cut(structure, cutter, revolutions_per_s);
   shape_ = modes.shape;
   rate_ = modes.rate;
-  const auto receptance = [&](Complex s) -> Eigen::Matrix2cd {
+  const auto receptance = [&](Complex s) -> Eigen::Matrix3cd {
     const Eigen::VectorXcd own = (s - rate_.array()).inverse(),
                            other = (s - rate_.array().conjugate()).inverse();
     return shape_ * own.asDiagonal() * modes.drive.transpose() +
            shape_.conjugate() * other.asDiagonal() * modes.drive.adjoint();
   };
   for (const TurningArc<4>& arc : force.arcs) {
-    TurningArc<2> driven{arc.from_rad, arc.to_rad, {}};
+    TurningArc<3> driven{arc.from_rad, arc.to_rad, {}};
     for (int m = 0; m < 3; ++m)
-      driven.harmonics.col(m) = receptance(Complex(0, m)) * arc.harmonics.col(m).head<2>();
+      driven.harmonics.col(m) = receptance(Complex(0, m)) * arc.harmonics.col(m).head<3>();
     driven_.push_back(driven);
     driven_slope_.push_back(driven.slope());
     // A mode follows the arc's harmonics from its beginning, less what it would have had then, and swings
@@ -43,7 +44,7 @@ ForcedVibration::ForcedVibration(const TipStructure& structure, const Cutter& cu
     for (const double turn : {arc.from_rad, arc.to_rad}) {
       Eigen::VectorXcd state = Eigen::VectorXcd::Zero(structure.modes());
       for (int m = -2; m <= 2; ++m) {
-        Eigen::Vector2cd part = arc.harmonics.col(std::abs(m)).head<2>();
+        Eigen::Vector3cd part = arc.harmonics.col(std::abs(m)).head<3>();
         if (m < 0) part = part.conjugate().eval();
         state.array() += (modes.drive.transpose() * part).array() * std::polar(1.0, m * turn) /
                          (Complex(0, m) - rate_.array());
@@ -52,7 +53,7 @@ ForcedVibration::ForcedVibration(const TipStructure& structure, const Cutter& cu
       breaks_.push_back({turn, state});
     }
   }
-  mean_ = receptance(0).real() * force.mean().head<2>();
+  mean_ = receptance(0).real() * force.mean().head<3>();
 }
 
 ForcedVibration::Free ForcedVibration::free_at(double turn_rad) const {
@@ -85,8 +86,8 @@ void ForcedVibration::walk(double from_rad, int count, const Visit& visit) const
   }
 }
 
-Eigen::Matrix2Xd ForcedVibration::per_depth(double from_rad, int count) const {
-  Eigen::Matrix2Xd result(2, count);
+Eigen::Matrix3Xd ForcedVibration::per_depth(double from_rad, int count) const {
+  Eigen::Matrix3Xd result(3, count);
   Eigen::Index i = 0;
   walk(from_rad, count, [&](double turn, const Free& free) {
     result.col(i++) = sum_at(driven_, period_rad_, turn) + 2 * (shape_ * free.state).real();
@@ -95,8 +96,8 @@ Eigen::Matrix2Xd ForcedVibration::per_depth(double from_rad, int count) const {
 }
 
 // Of that, but for a constant.
-Eigen::Matrix2Xd ForcedVibration::integrals(double from_rad, int count) const {
-  Eigen::Matrix2Xd result(2, count);
+Eigen::Matrix3Xd ForcedVibration::integrals(double from_rad, int count) const {
+  Eigen::Matrix3Xd result(3, count);
   Eigen::Index i = 0;
   walk(from_rad, count, [&](double turn, const Free& free) {
     result.col(i++) = integral_to(driven_, period_rad_, turn) +
@@ -105,17 +106,17 @@ Eigen::Matrix2Xd ForcedVibration::integrals(double from_rad, int count) const {
   return result;
 }
 
-Eigen::Matrix2Xd ForcedVibration::over_depth(double depth_m, double from_rad, int count) const {
+Eigen::Matrix3Xd ForcedVibration::over_depth(double depth_m, double from_rad, int count) const {
   const double lag = lag_rad_per_m_ * depth_m;
   if (std::abs(lag) < kStraight) return depth_m * per_depth(from_rad, count);
   return (integrals(from_rad, count) - integrals(from_rad - lag, count)) / lag_rad_per_m_;
 }
 
-Eigen::Vector2d ForcedVibration::displacement(double depth_m, double turn_rad) const {
+Eigen::Vector3d ForcedVibration::displacement(double depth_m, double turn_rad) const {
   return over_depth(depth_m, turn_rad, 1);
 }
 
-Eigen::Vector2d ForcedVibration::slope(double depth_m, double turn_rad) const {
+Eigen::Vector3d ForcedVibration::slope(double depth_m, double turn_rad) const {
   const double lag = lag_rad_per_m_ * depth_m;
   if (std::abs(lag) >= kStraight)
     return (per_depth(turn_rad, 1) - per_depth(turn_rad - lag, 1)) / lag_rad_per_m_;
@@ -124,7 +125,7 @@ Eigen::Vector2d ForcedVibration::slope(double depth_m, double turn_rad) const {
          (sum_at(driven_slope_, period_rad_, turn_rad) + 2 * (shape_ * rate_.cwiseProduct(state)).real());
 }
 
-Eigen::Matrix2Xd ForcedVibration::displacements(double depth_m, int count) const {
+Eigen::Matrix3Xd ForcedVibration::displacements(double depth_m, int count) const {
   return over_depth(depth_m, 0, count);
 }
 

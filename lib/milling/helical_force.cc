@@ -18,7 +18,7 @@ constexpr Eigen::Index kRuleStep = 4;
 CutSchedule unit_schedule(const HelicalArc& arc, double pitch_rad) {
   CutPiece piece{0, arc.length_rad, {}, {}};
   piece.cutting = [](double) {
-    return DirectionalFactors{Eigen::Matrix2d::Identity(), Eigen::Matrix2d::Identity()};
+    return DirectionalFactors{Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity()};
   };
   return {pitch_rad, 1, {piece}};
 }

@@ -97,7 +97,8 @@ class ByPieces {
 }  // namespace
 
 bool is_helical_for_the_circle(const Cutter& cutter) {
-  return cutter.lag_rad_per_m != 0 && cutter.equal_pitch() && cutter.damping_n_per_m == 0;
+  return cutter.lag_rad_per_m != 0 && cutter.corner_radius_m == 0 && cutter.equal_pitch() &&
+         cutter.damping_n_per_m == 0;
 }
 
 std::optional<HelicalLimits> helical_limits(const TipStructure& structure, const Cutter& cutter,

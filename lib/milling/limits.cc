@@ -107,7 +107,7 @@ bool is_helical_and_stable(const TipStructure& structure, const Cutter& cutter) 
 }
 
 bool is_straight_and_stable(const TipStructure& structure, const Cutter& cutter) {
-  return cutter.lag_rad_per_m == 0 && structure.lambda.real().maxCoeff() < 0;
+  return !cutter.changes_with_depth() && structure.lambda.real().maxCoeff() < 0;
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ struct Column {
 // more points than the limits.
 std::vector<double> grid_of(const TipStructure& structure, const Cutter& cutter, double revolutions_per_s,
                             const std::vector<double>& depths_m, SpeedLimits& limits) {
-  if (!cutter.equal_pitch() || cutter.lag_rad_per_m != 0) {
+  if (!cutter.equal_pitch() || cutter.changes_with_depth()) {
     // The limits' polynomials say nothing about the points of a map, or maps are dear.
     const PreparedPeriod period = prepare_period(structure, cutter, revolutions_per_s, {}, depths_m.back());
     const DepthScan scan(*period.map, depths_m.back());

@@ -36,14 +36,15 @@ inline Cutter benchmark_cutter(bool up_milling, double radial_immersion, int tee
   return cutter;
 }
 
-/// Coupled non-symmetric modes in x and y around the benchmark's stiffness, from a seed.
-inline dynamics::ModalModel coupled_modes(int count, unsigned seed) {
+/// Coupled non-symmetric modes in x and y, or in x, y and z, around the benchmark's stiffness, from a seed.
+inline dynamics::ModalModel coupled_modes(int count, unsigned seed, int directions = 2) {
   std::mt19937_64 generator(seed);
   const auto uniform = [&](double lo, double hi) {
     return lo + (hi - lo) * static_cast<double>(generator() >> 11) * 0x1p-53;
   };
   dynamics::ModalModel model;
   model.dofs = {"x", "y"};
+  if (directions == 3) model.dofs.emplace_back("z");
   for (int k = 0; k < count; ++k) {
     dynamics::Mode mode;
     mode.frequency_hz = uniform(80, 1200);
@@ -52,10 +53,10 @@ inline dynamics::ModalModel coupled_modes(int count, unsigned seed) {
       const double re = uniform(-1, 1);
       return std::complex<double>(re, uniform(-1, 1));
     };
-    mode.psi_r = Eigen::VectorXcd::NullaryExpr(2, [&](Eigen::Index) { return complex(); });
+    mode.psi_r = Eigen::VectorXcd::NullaryExpr(directions, [&](Eigen::Index) { return complex(); });
     mode.psi_l = mode.psi_r / std::complex<double>(0, 2 * 0.3 * mode.pole().imag());
-    mode.psi_l +=
-        0.2 * mode.psi_l.norm() * Eigen::VectorXcd::NullaryExpr(2, [&](Eigen::Index) { return complex(); });
+    mode.psi_l += 0.2 * mode.psi_l.norm() *
+                  Eigen::VectorXcd::NullaryExpr(directions, [&](Eigen::Index) { return complex(); });
     model.modes.push_back(mode);
   }
   return model;

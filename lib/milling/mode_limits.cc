@@ -14,7 +14,7 @@ std::vector<ModeLimit> limits_of_each_mode(const dynamics::ModalModel& model,
   std::vector<ModeLimit> result;
   for (const std::size_t mode : modes) {
     ModeLimit limit{mode, std::vector<std::vector<StabilityCrossing>>(revolutions_per_s.size())};
-    const TipStructure structure = tip_structure(dynamics::chosen_modes(model, {mode}));
+    const TipStructure structure = tip_structure(dynamics::chosen_modes(model, {mode}), cutter.is_axial());
     if (structure.modes() > 0) {
       limit.crossings =
           stability_chart(structure, cutter, revolutions_per_s, depths_m, scheme, false, threads).crossings;

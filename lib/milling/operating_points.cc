@@ -161,7 +161,7 @@ CutRate cut_rate(const Cutter& cutter, const CuttingLoad& load, double revolutio
   const double width = cutter.diameter_m / 2 * (std::cos(cutter.entry_rad) - std::cos(cutter.exit_rad));
   CutRate rate;
   rate.removal_m3_per_s = depth_m * width * load.feed_per_tooth_m * cutter.teeth * revolutions_per_s;
-  rate.torque_n_m = depth_m * force_cycle(cutter, load).mean()[3] * cutter.diameter_m / 2;
+  rate.torque_n_m = depth_m * force_cycle(cutter, load, depth_m).mean()[3] * cutter.diameter_m / 2;
   rate.power_w = kTwoPi * revolutions_per_s * rate.torque_n_m;
   return rate;
 }

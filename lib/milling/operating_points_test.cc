@@ -106,7 +106,7 @@ TEST_CASE("best points keep their margins, and power and torque limits") {
   CHECK(best_points(chart, limits, 0, limit_of_valley, 1).empty());
 }
 
-const CuttingLoad kLoad{0.05e-3, 0, 0, 0, 0, {}};
+const CuttingLoad kLoad{0.05e-3, 0, 0, 0, {}};
 
 TEST_CASE("removal, power and torque of a cut") {
   Cutter cutter = fixtures::benchmark_cutter(true, 0.25, 2);
@@ -117,7 +117,7 @@ TEST_CASE("removal, power and torque of a cut") {
   CHECK(rate.power_w == Approx(600e6 * 30e-9));
   CHECK(rate.torque_n_m == Approx(rate.power_w / (kTwoPi * 100)));
   // Edges of 20 N/mm rub over 60 degrees of each of 200 passes a second.
-  const CutRate rubbed = cut_rate(cutter, {0.05e-3, 0, 20e3, 0, 0, {}}, 100, 1e-3);
+  const CutRate rubbed = cut_rate(cutter, {0.05e-3, 20e3, 0, 0, {}}, 100, 1e-3);
   CHECK(rubbed.power_w - rate.power_w == Approx(20e3 * 1e-3 * 0.006 * kPi / 3 * 200));
 }
 

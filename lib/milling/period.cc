@@ -105,7 +105,8 @@ double followed(const TipStructure& structure, const Cutter& cutter, const CutSc
   const double fastest = structure.lambda.imag().cwiseAbs().maxCoeff();
   // Where all of them are cheap to follow, nothing is left out.
   if (half_turn_of(fastest, schedule, revolutions_per_s) <= kManyRadians) return fastest;
-  const Eigen::Matrix2d whole = mean_directional_coefficients(cutter, 0, cutter.mean_pitch_rad());
+  const Eigen::Matrix3d whole =
+      mean_directional_coefficients(cutter, 0, cutter.mean_pitch_rad(), largest_depth_m);
   const Eigen::MatrixXd mean = whole(structure.axes, structure.axes);
   double highest = 0;
   for (Eigen::Index k = 0; k < structure.modes(); ++k) {
@@ -139,7 +140,7 @@ PointPlan point_plan(const TipStructure& structure, const Cutter& cutter, double
     throw no_answer_at(revolutions_per_s, "the fastest mode turns too often in one cut to be followed");
   const auto by_node = static_cast<int>(kFirstPoints + nodes);
   if (!cutter.equal_pitch()) return {by_node, std::max(by_node, kMostPointsByTooth), kConvergedByTooth};
-  if (cutter.lag_rad_per_m != 0) return {by_node, kMostPoints, kConverged};
+  if (cutter.changes_with_depth()) return {by_node, kMostPoints, kConverged};
   const double follow = followed(structure, cutter, schedule, revolutions_per_s, largest_depth_m);
   const bool all = follow >= fastest;
   return {static_cast<int>(kFirstPoints + half_turn_of(follow, schedule, revolutions_per_s)), kMostPoints,

@@ -27,7 +27,7 @@ struct Piece {
 
 // A number of the tip's motion: direction * r, or direction * r', at an instant, less what it was at another.
 struct Row {
-  Eigen::RowVector2d direction;
+  Eigen::RowVector3d direction;
   std::size_t now;
   bool is_velocity;
   bool is_compared;
@@ -36,7 +36,7 @@ struct Row {
 
 // A force: so much of a direction per sensed number, at a point.
 struct Column {
-  Eigen::Vector2d drive;
+  Eigen::Vector3d drive;
   Eigen::Index point;
 };
 
@@ -203,20 +203,20 @@ RegenerativeVibration::RegenerativeVibration(const TipStructure& structure, cons
   const auto sensed = static_cast<Eigen::Index>(response.rows.size());
   for (const double turn : turns_rad) {
     const std::size_t now = response.instant(turn);
-    for (const int axis : {0, 1})
-      response.rows.push_back({Eigen::RowVector2d::Unit(axis), now, false, false, 0});
+    for (const int axis : {0, 1, 2})
+      response.rows.push_back({Eigen::RowVector3d::Unit(axis), now, false, false, 0});
   }
   const Eigen::MatrixXd all = response.matrix(modes_in_cut(structure, cutter, revolutions_per_s));
   sensed_ = all.topRows(sensed);
   moved_ = all.bottomRows(all.rows() - sensed);
 
-  // Of edges that lag the motion per depth depends on the depth.
-  const double depth = cutter.lag_rad_per_m == 0 ? 1 : depth_m;
+  // The motion per depth may depend on the depth.
+  const double depth = cutter.changes_with_depth() ? depth_m : 1;
   Eigen::VectorXd of_forced(all.rows());
   for (Eigen::Index i = 0; i < all.rows(); ++i) {
     const Row& row = response.rows[i];
     const double turn = response.turn_of(row.now);
-    Eigen::Vector2d motion =
+    Eigen::Vector3d motion =
         row.is_velocity ? omega * forced.slope(depth, turn) : forced.displacement(depth, turn);
     if (row.is_compared) motion -= forced.displacement(depth, response.turn_of(row.before));
     of_forced[i] = row.direction.dot(motion) / depth;
@@ -225,12 +225,12 @@ RegenerativeVibration::RegenerativeVibration(const TipStructure& structure, cons
   moved_forced_ = of_forced.tail(all.rows() - sensed);
 }
 
-Eigen::Matrix2Xd RegenerativeVibration::displacements(double depth_m) const {
+Eigen::Matrix3Xd RegenerativeVibration::displacements(double depth_m) const {
   const Eigen::MatrixXd equation =
       Eigen::MatrixXd::Identity(sensed_.rows(), sensed_.cols()) - depth_m * sensed_;
   const Eigen::VectorXd d = equation.partialPivLu().solve(depth_m * sensed_forced_);
   const Eigen::VectorXd moved = depth_m * (moved_forced_ + moved_ * d);
-  return Eigen::Matrix2Xd::Map(moved.data(), 2, moved.size() / 2);
+  return Eigen::Matrix3Xd::Map(moved.data(), 3, moved.size() / 3);
 }
 
 }  // namespace stablecut::milling

@@ -14,14 +14,16 @@ namespace stablecut::milling {
 /// tooth cuts where it would cut if the tip stood still.
 class RegenerativeVibration {
  public:
-  /// At these turns. Helical edges lag as at `depth_m`. A radian of cut has `points_per_rad` collocation
-  /// points at least; `forced` is the motion under the mean chip, of the same arguments.
+  /// At these turns. Helical edges lag, and corners are, as at `depth_m`. A radian of cut has
+  /// `points_per_rad` collocation points at least; `forced` is the motion under the mean chip, of the same
+  /// arguments.
   RegenerativeVibration(const TipStructure& structure, const Cutter& cutter, const CuttingLoad& load,
                         const ForcedVibration& forced, double revolutions_per_s, double depth_m,
                         double points_per_rad, const std::vector<double>& turns_rad);
 
-  /// [2 x turns] m, in the cut's frame: at any depth with straight teeth, else at the one given before.
-  Eigen::Matrix2Xd displacements(double depth_m) const;
+  /// [3 x turns] m, in the cut's frame: at any depth where the cutter does not change with it, else at the
+  /// one given before.
+  Eigen::Matrix3Xd displacements(double depth_m) const;
 
  private:
   // What the force of the chip depends on, d, and the displacements r at the turns, per depth and of unit

@@ -64,7 +64,8 @@ std::vector<SampledCut> sampled_cuts(const dynamics::ModalModel& model, const Cu
     const Eigen::VectorXd by = root * z;
     const double kt = deviations.kt_n_per_m2 * normal(), kr = deviations.kr_n_per_m2 * normal();
     for (const double side : {1.0, -1.0}) {
-      SampledCut sample{tip_structure(by.size() > 0 ? moved(model, side * by) : model), cutter};
+      SampledCut sample{tip_structure(by.size() > 0 ? moved(model, side * by) : model, cutter.is_axial()),
+                        cutter};
       sample.cutter.kt_n_per_m2 = std::max(cutter.kt_n_per_m2 + side * kt, kLeastOfMean * cutter.kt_n_per_m2);
       sample.cutter.kr_n_per_m2 = std::max(cutter.kr_n_per_m2 + side * kr, 0.0);
       samples.push_back(std::move(sample));

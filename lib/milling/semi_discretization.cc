@@ -10,7 +10,8 @@ SemiDiscretizationMap::SemiDiscretizationMap(const TipStructure& structure, cons
     : PeriodMap(structure, cutter.tooth_period_s(revolutions_per_s), 1), interval_s_(period_s() / intervals) {
   const double step = cutter.mean_pitch_rad() / intervals;
   for (int i = 0; i < intervals; ++i) {
-    const Eigen::Matrix2d mean = mean_directional_coefficients(cutter, i * step, (i + 1) * step);
+    // The cutter's coefficients do not depend on the depth here.
+    const Eigen::Matrix3d mean = mean_directional_coefficients(cutter, i * step, (i + 1) * step, 0);
     if (mean.isZero(0)) {
       mean_coefficient_.emplace_back();
       continue;

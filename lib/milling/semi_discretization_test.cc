@@ -6,6 +6,7 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "milling/milling_fixtures_test.h"
+#include "milling/spectral.h"
 
 using namespace stablecut;
 using namespace stablecut::milling;
@@ -29,7 +30,8 @@ double textbook_radius(const TipStructure& structure, const Cutter& cutter, doub
   const Eigen::Index size = 2 * n * (m + 1);
   Eigen::MatrixXcd product = Eigen::MatrixXcd::Identity(size, size);
   for (int i = 0; i < m; ++i) {
-    const Eigen::Matrix2d mean = mean_directional_coefficients(cutter, i * step, (i + 1) * step);
+    const Eigen::Matrix2d mean =
+        mean_directional_coefficients(cutter, i * step, (i + 1) * step, 1e-3).topLeftCorner<2, 2>();
     const Eigen::MatrixXd kappa = depth_m * mean(structure.axes, structure.axes);
     const Eigen::MatrixXcd b = -psi_l.transpose() * kappa * psi_r;
     const Eigen::MatrixXcd a = Eigen::MatrixXcd(lambda.asDiagonal()) - b;
@@ -71,4 +73,22 @@ TEST_CASE("only the intervals in cut carry a delayed displacement") {
   // 60 of 180 degrees are 13.3 of 40 intervals: 14 in cut.
   const SemiDiscretizationMap map(structure, fixtures::benchmark_cutter(true, 0.25), 150, 40);
   CHECK(map.monodromy(1e-3).rows() == 30 + 2 * 14);
+}
+
+TEST_CASE("with motion along the axis both methods agree") {
+  // One tooth in cut at a time, whose chip is one number, and several.
+  for (const int teeth : {1, 4}) {
+    Cutter cutter = fixtures::benchmark_cutter(false, 0.6, teeth);
+    cutter.ka_n_per_m2 = 250e6;
+    cutter.lead_rad = 0.9;
+    cutter.feed_angle_rad = 0.3;
+    const dynamics::ModalModel model = fixtures::coupled_modes(4, 21, 3);
+    const TipStructure axial = tip_structure(model, cutter.is_axial()), plane = tip_structure(model);
+    REQUIRE(axial.directions() == 3);
+    const double depth = 1.5e-3, speed = 360.0 / teeth;
+    const double radius = spectral_radius(SpectralMap(axial, cutter, speed, 24), depth);
+    const double discrete = spectral_radius(SemiDiscretizationMap(axial, cutter, speed, 400), depth);
+    CHECK(radius == Approx(discrete).epsilon(1e-4));
+    CHECK(std::abs(radius - spectral_radius(SpectralMap(plane, cutter, speed, 24), depth)) > 1e-3 * radius);
+  }
 }

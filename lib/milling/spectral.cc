@@ -58,7 +58,7 @@ SpectralMap::SpectralMap(const TipStructure& structure, const Cutter& cutter, co
       cutter_(cutter),
       revolutions_per_s_(revolutions_per_s),
       points_(points) {
-  if (cutter.lag_rad_per_m == 0) fixed_ = collocate(structure, at_no_depth, revolutions_per_s, points);
+  if (!cutter.changes_with_depth()) fixed_ = collocate(structure, at_no_depth, revolutions_per_s, points);
 }
 
 SpectralMap::SpectralMap(const TipStructure& structure, const CutSchedule& schedule, double revolutions_per_s,

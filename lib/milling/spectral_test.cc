@@ -118,7 +118,7 @@ TEST_CASE("helix: discs of straight teeth, each behind the one below, tend to it
       const double middle = (ends[e] + ends[e + 1]) / 2, start = ends.front();
       // Coefficients of what is in cut in the middle of the piece, that is all along it.
       const auto cutting = [&, middle, start](double turn) {
-        Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+        Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
         for (Eigen::Index i = 0; i < discs.node.size(); ++i) {
           for (int tooth = -3; tooth <= 3; ++tooth) {
             const double shift = tooth * pitch - lag(i);
@@ -126,10 +126,10 @@ TEST_CASE("helix: discs of straight teeth, each behind the one below, tend to it
             const double s = std::sin(start + turn + shift), c = std::cos(start + turn + shift);
             const Eigen::Vector2d force(-c * cutter.kt_n_per_m2 - s * cutter.kr_n_per_m2,
                                         s * cutter.kt_n_per_m2 - c * cutter.kr_n_per_m2);
-            sum += discs.weight[i] / 2 * force * Eigen::RowVector2d(s, c);
+            sum.topLeftCorner<2, 2>() += discs.weight[i] / 2 * force * Eigen::RowVector2d(s, c);
           }
         }
-        return DirectionalFactors{sum, Eigen::Matrix2d::Identity()};
+        return DirectionalFactors{sum, Eigen::Matrix3d::Identity()};
       };
       if (cutting(middle - start).drive.isZero(0) || ends[e + 1] - ends[e] < 1e-9) continue;
       schedule.pieces.push_back(

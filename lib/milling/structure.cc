@@ -41,17 +41,17 @@ Eigen::MatrixXcd TipStructure::mode_receptances(std::complex<double> s, const Ei
   return moved;
 }
 
-TipStructure tip_structure(const dynamics::ModalModel& model) {
+TipStructure tip_structure(const dynamics::ModalModel& model, bool is_axial) {
   TipStructure structure;
   std::vector<Eigen::Index> rows;
-  const char* const names[] = {"x", "y"};
-  for (Eigen::Index axis = 0; axis < 2; ++axis) {
+  const char* const names[] = {"x", "y", "z"};
+  for (Eigen::Index axis = 0; axis < (is_axial ? 3 : 2); ++axis) {
     if (const Eigen::Index row = model.dof(names[axis]); row >= 0) {
       structure.axes.push_back(axis);
       rows.push_back(row);
     }
   }
-  if (rows.empty()) throw InvalidArgument("dofs: expected x, y or both");
+  if (rows.empty() || structure.axes.front() == 2) throw InvalidArgument("dofs: expected x, y or both");
 
   std::vector<dynamics::Mode> kept;
   for (std::size_t k = 0; k < model.modes.size(); ++k) {

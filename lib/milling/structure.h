@@ -16,7 +16,7 @@ struct TipStructure {
   Eigen::VectorXcd lambda;          ///< [modes], rad/s, positive imaginary parts
   Eigen::MatrixXcd psi_r;           ///< [directions x modes], sqrt(s/kg)
   Eigen::MatrixXcd psi_l;           ///< [directions x modes], sqrt(s/kg)
-  std::vector<Eigen::Index> axes;   ///< [directions] 0 for x, 1 for y: the directions that can move
+  std::vector<Eigen::Index> axes;   ///< [directions] 0 for x, 1 for y, 2 for z: those that can move
   std::vector<std::size_t> source;  ///< [modes] index of each in the model
   double displacement_scale_m = 1;  ///< the displacement that a modal coordinate of size 1 causes, about
 
@@ -34,9 +34,9 @@ struct TipStructure {
   Eigen::MatrixXcd mode_receptances(std::complex<double> s, const Eigen::VectorXcd& force) const;
 };
 
-/// The modes of a model in its directions x and y; other dofs are left out, and so are modes that no force in
-/// x or y drives or that move neither. Where no mode is left, nothing can chatter. Throws InvalidArgument
-/// when the model has neither direction.
-TipStructure tip_structure(const dynamics::ModalModel& model);
+/// The modes of a model in its directions x and y, and z where the cut acts along the axis; other dofs are
+/// left out, and so are modes that no force in these drives or that move none. Where no mode is left, nothing
+/// can chatter. Throws InvalidArgument when the model has neither x nor y.
+TipStructure tip_structure(const dynamics::ModalModel& model, bool is_axial = false);
 
 }  // namespace stablecut::milling

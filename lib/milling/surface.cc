@@ -60,6 +60,10 @@ bool leaves_equal_chips(const Cutter& cutter, const CuttingLoad& load) {
   return cutter.equal_pitch() && load.runout_m.empty() && cutter.damping_n_per_m == 0;
 }
 
+double period_of(const Cutter& cutter, const CuttingLoad& load) {
+  return cutter.equal_pitch() && load.runout_m.empty() ? cutter.mean_pitch_rad() : kTwoPi;
+}
+
 // Of the mean force per depth, in the cut's frame.
 Eigen::Vector2d displacement_under(const Eigen::Matrix2d& compliance, const Cutter& cutter,
                                    const ForceCycle& force) {
@@ -96,16 +100,23 @@ SurfaceAtSpeed::SurfaceAtSpeed(const TipStructure& structure, const Cutter& cutt
       load_(load),
       revolutions_per_s_(revolutions_per_s),
       resolution_(resolution),
-      force_(force_cycle(cutter, load)),
-      added_(displacement_under(added_compliance, cutter, force_)),
-      forced_(structure, cutter, force_, revolutions_per_s),
-      samples_(samples_of(structure, revolutions_per_s, force_.period_rad)) {}
+      added_compliance_(added_compliance),
+      samples_(samples_of(structure, revolutions_per_s, period_of(cutter, load))) {}
+
+// The force per depth is that of every depth but where the edge has a corner.
+void SurfaceAtSpeed::set_depth(double depth_m) {
+  if (forced_ && (cutter_.corner_radius_m == 0 || depth_m == depth_m_)) return;
+  const ForceCycle force = force_cycle(cutter_, load_, depth_m);
+  added_ = displacement_under(added_compliance_, cutter_, force);
+  forced_.emplace(structure_, cutter_, force, revolutions_per_s_);
+  depth_m_ = depth_m;
+}
 
 std::vector<SurfaceAtSpeed::Passage> SurfaceAtSpeed::passages(double depth_m) const {
   const bool one_for_all = cutter_.equal_pitch() && load_.runout_m.empty();
   const double lag = cutter_.lag_rad_per_m * depth_m;
   const int steps =
-      lag == 0 ? 0 : 1 + static_cast<int>(std::ceil(samples_ * std::abs(lag) / forced_.period_rad()));
+      lag == 0 ? 0 : 1 + static_cast<int>(std::ceil(samples_ * std::abs(lag) / period_of(cutter_, load_)));
   std::vector<Passage> result;
   for (const double wall : walls_of(cutter_)) {
     for (int i = 0; i <= steps; ++i) {
@@ -128,38 +139,40 @@ double SurfaceAtSpeed::points_per_rad(double depth_m) const {
 }
 
 // At equal distances over the period, and then at the passages.
-Eigen::Matrix2Xd SurfaceAtSpeed::displacements(double depth_m, const std::vector<Passage>& passages) {
+Eigen::Matrix3Xd SurfaceAtSpeed::displacements(double depth_m, const std::vector<Passage>& passages) {
   const auto count = static_cast<Eigen::Index>(passages.size());
   if (leaves_equal_chips(cutter_, load_)) {
-    Eigen::Matrix2Xd result(2, samples_ + count);
-    result.leftCols(samples_) = forced_.displacements(depth_m, samples_);
+    Eigen::Matrix3Xd result(3, samples_ + count);
+    result.leftCols(samples_) = forced_->displacements(depth_m, samples_);
     for (Eigen::Index i = 0; i < count; ++i)
-      result.col(samples_ + i) = forced_.displacement(depth_m, passages[i].turn_rad);
+      result.col(samples_ + i) = forced_->displacement(depth_m, passages[i].turn_rad);
     return result;
   }
-  if (!regenerative_ || cutter_.lag_rad_per_m != 0) {
+  if (!regenerative_ || cutter_.changes_with_depth()) {
     std::vector<double> turns;
-    for (int i = 0; i < samples_; ++i) turns.push_back(i * forced_.period_rad() / samples_);
+    for (int i = 0; i < samples_; ++i) turns.push_back(i * period_of(cutter_, load_) / samples_);
     for (const Passage& passage : passages) turns.push_back(passage.turn_rad);
-    regenerative_.emplace(structure_, cutter_, load_, forced_, revolutions_per_s_, depth_m,
+    regenerative_.emplace(structure_, cutter_, load_, *forced_, revolutions_per_s_, depth_m,
                           points_per_rad(depth_m), turns);
   }
   return regenerative_->displacements(depth_m);
 }
 
 SurfacePoint SurfaceAtSpeed::at(double depth_m) {
-  const bool in_proportion = leaves_equal_chips(cutter_, load_) && cutter_.lag_rad_per_m == 0;
+  const bool in_proportion = leaves_equal_chips(cutter_, load_) && !cutter_.changes_with_depth();
   if (in_proportion && per_depth_) return scaled(*per_depth_, depth_m);
   if (depth_m == 0) {
     const auto nothing = walls_of(cutter_).empty() ? std::nullopt : std::optional(0.0);
     return {nothing, nothing};
   }
 
+  set_depth(depth_m);
   const std::vector<Passage> touched = passages(depth_m);
-  const Eigen::Matrix2Xd motion = displacements(depth_m, touched).colwise() + depth_m * added_;
+  const Eigen::Matrix2Xd motion = displacements(depth_m, touched).topRows<2>().colwise() + depth_m * added_;
   SurfacePoint result;
   result.mean_deflection_m = motion.leftCols(samples_).rowwise().mean();
-  if (leaves_equal_chips(cutter_, load_)) result.mean_deflection_m = forced_.mean(depth_m) + depth_m * added_;
+  if (leaves_equal_chips(cutter_, load_))
+    result.mean_deflection_m = forced_->mean(depth_m).head<2>() + depth_m * added_;
   const Eigen::RowVectorXd squares =
       (motion.leftCols(samples_).colwise() - result.mean_deflection_m).colwise().squaredNorm();
   result.peak_vibration_m = std::sqrt(summit(squares));

@@ -21,7 +21,7 @@ struct SurfacePoint {
   std::optional<double> location_error_m;
   /// The same where the path is offset by the negative mean deflection.
   std::optional<double> error_with_offset_m;
-  double peak_vibration_m = 0;  ///< largest distance of the tip from its mean
+  double peak_vibration_m = 0;  ///< largest distance of the tip from its mean, in the plane of the cut
   double rms_vibration_m = 0;
   Eigen::Vector2d mean_deflection_m = Eigen::Vector2d::Zero();  ///< along the feed and normal to it
 };
@@ -48,8 +48,9 @@ class SurfaceAtSpeed {
     double wall_rad, turn_rad, runout_m;
     int height;
   };
+  void set_depth(double depth_m);
   std::vector<Passage> passages(double depth_m) const;
-  Eigen::Matrix2Xd displacements(double depth_m, const std::vector<Passage>& passages);
+  Eigen::Matrix3Xd displacements(double depth_m, const std::vector<Passage>& passages);
   double points_per_rad(double depth_m) const;
 
   const TipStructure& structure_;
@@ -57,12 +58,13 @@ class SurfaceAtSpeed {
   const CuttingLoad& load_;
   double revolutions_per_s_;
   int resolution_;
-  ForceCycle force_;
+  Eigen::Matrix2d added_compliance_;
+  double depth_m_ = 0;     // of the force, where that changes with it
   Eigen::Vector2d added_;  // displacement per depth
-  ForcedVibration forced_;
-  int samples_;                                        // of a period
-  std::optional<RegenerativeVibration> regenerative_;  // of straight teeth
-  std::optional<SurfacePoint> per_depth_;              // where all is in proportion to the depth
+  std::optional<ForcedVibration> forced_;
+  int samples_;  // of a period
+  std::optional<RegenerativeVibration> regenerative_;
+  std::optional<SurfacePoint> per_depth_;  // where all is in proportion to the depth
 };
 
 /// [depths][speeds]; nothing where the cut is unstable or the chart has no answer. The chart with its grid.

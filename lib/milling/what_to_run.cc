@@ -20,8 +20,11 @@ OperatingLimits limits_of(const RunRequest& request, const Cutter& cutter, doubl
   limits.depth_share = request.depth_share;
   limits.speed_share = request.speed_share;
   if (request.load) {
-    // Power is proportional to depth times speed, and torque to depth.
-    const CutRate unit = cut_rate(cutter, *request.load, 1, 1);
+    // Power is proportional to depth times speed, and torque to depth; at a corner the edge forces are a
+    // little larger at smaller depths.
+    CutRate unit = cut_rate(cutter, *request.load, 1, largest_depth_m);
+    unit.power_w /= largest_depth_m;
+    unit.torque_n_m /= largest_depth_m;
     if (request.largest_power_w) limits.largest_depth_times_speed = *request.largest_power_w / unit.power_w;
     if (request.largest_torque_n_m)
       limits.largest_depth_by_torque = *request.largest_torque_n_m / unit.torque_n_m;
@@ -49,7 +52,7 @@ std::vector<LimitPoint> limits_between(const std::vector<TipStructure>& structur
   const int points = *std::max_element(curve.resolution.begin(), curve.resolution.end());
   const bool one_in_cut = cutter.exit_rad - cutter.entry_rad <= cutter.mean_pitch_rad();
   const bool cheap = curve.method == StabilityMethod::kSpectral && cutter.equal_pitch() &&
-                     cutter.lag_rad_per_m == 0 && cutter.damping_n_per_m == 0 &&
+                     !cutter.changes_with_depth() && cutter.damping_n_per_m == 0 &&
                      points * (one_in_cut ? 1 : 2) <= kCheapRows;
   const std::size_t most =
       cheap ? kMostBetween * speeds.size() + kLeastBetween : speeds.size() / kSpeedsForOneDear;

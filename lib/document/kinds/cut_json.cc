@@ -16,6 +16,11 @@ constexpr double kMostLag = 1e5;  // rad/m
 constexpr Bound kImmersion{
     .least = 0, .most = 1, .open_least = true, .words = "a radial immersion ae/D above 0 and at most 1"};
 constexpr Bound kEngagementAngle{.least = 0, .most = 180, .words = "an angle from 0 to 180 degrees"};
+constexpr Bound kLead{
+    .least = 0,
+    .most = 90,
+    .open_least = true,
+    .words = "a lead angle above 0 and at most 90 degrees, from the plane normal to the axis"};
 constexpr Bound kHelix{.least = -90,
                        .most = 90,
                        .open_least = true,
@@ -57,6 +62,13 @@ void read_engagement(const Node& root, milling::Cutter& cutter) {
 
 // Pitches that are equal need no schedule for each tooth.
 void read_edges(const Node& root, milling::Cutter& cutter) {
+  if (const auto lead = root.find("lead_angle_deg"); lead && lead->number(kLead) != 90)
+    cutter.lead_rad = radians_from_degrees(lead->number(kLead));
+  if (const auto corner = root.find("corner_radius_mm")) {
+    cutter.corner_radius_m = metres_from_mm(corner->number(kNotNegative));
+    if (root.has("diameter_mm") && cutter.corner_radius_m > cutter.diameter_m / 2)
+      corner->fail("expected at most half of diameter_mm");
+  }
   if (const auto pitch = root.find("pitch_deg")) {
     const Eigen::VectorXd angles = pitch->numbers(kPositive);
     if (angles.size() != cutter.teeth)
@@ -99,7 +111,7 @@ void read_load(const Node& root, CutDocument& cut) {
     const auto node = root.find(name);
     return node ? node->number(kNotNegative) : 0;
   };
-  cut.load.ka_n_per_m2 = n_per_m2_from_n_per_mm2(coefficient("ka_n_per_mm2"));
+  cut.cutter.ka_n_per_m2 = n_per_m2_from_n_per_mm2(coefficient("ka_n_per_mm2"));
   cut.load.kte_n_per_m = n_per_m_from_n_per_mm(coefficient("kte_n_per_mm"));
   cut.load.kre_n_per_m = n_per_m_from_n_per_mm(coefficient("kre_n_per_mm"));
   cut.load.kae_n_per_m = n_per_m_from_n_per_mm(coefficient("kae_n_per_mm"));
@@ -136,6 +148,8 @@ CutDocument cut_from_json(const Json& document, const Source& source) {
                     "kt_std_n_per_mm2",
                     "kr_std_n_per_mm2",
                     "ka_n_per_mm2",
+                    "lead_angle_deg",
+                    "corner_radius_mm",
                     "kte_n_per_mm",
                     "kre_n_per_mm",
                     "kae_n_per_mm",
