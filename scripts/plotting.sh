@@ -2,6 +2,8 @@
 # What it sets is read, and what it reads is set, by the scripts that source it.
 # shellcheck shell=bash disable=SC2034,SC2154
 
+scripts=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+
 plot_fail() { echo "$(basename "$0"): $1" >&2; exit "${2:-64}"; }
 
 # Sets inputs (at most $most_inputs, 1 by default) and input (the first), output ("-": standard output), form (svg, png,
@@ -41,8 +43,9 @@ plot_options() {
   trap 'rm -rf "$work"' EXIT
 }
 
-# plot_input PATH KIND NAME: checks the document's kind and copies it to $work/NAME, without provenance and with letters,
-# digits and harmless signs for strings: they end up in gnuplot's commands.
+# plot_input PATH KIND NAME: checks the document against the schema of its kind and copies it to $work/NAME, without provenance
+# and with letters, digits and harmless signs for strings. What is a number in the schema can stand in gnuplot's commands and
+# in the shell's arithmetic; a text can stand there in quotes only.
 plot_input() {
   local shown=$1
   if [ "$1" = - ]; then shown="<stdin>"; cat >"$work/raw"
@@ -50,6 +53,15 @@ plot_input() {
   local format
   format=$(jq -r '.format? // "none"' "$work/raw" 2>/dev/null) || plot_fail "$shown: not JSON: expected stablecut/$2/1" 65
   [ "$format" = "stablecut/$2/1" ] || plot_fail "$shown: /format: ${format:-nothing}: expected stablecut/$2/1" 65
+  local schema
+  for schema in "$scripts/../schemas" "$scripts/../share/stablecut/schemas" -; do
+    [ "$schema" != - ] || plot_fail "schemas: cannot be found beside the scripts" 70
+    [ ! -e "$schema/$2.schema.json" ] || break
+  done
+  local broken
+  broken=$(jq -r --slurpfile schema "$schema/$2.schema.json" -f "$scripts/schema.jq" "$work/raw" | tr -d '\000-\037\177') ||
+    plot_fail "$shown: expected one document" 65
+  [ -z "$broken" ] || plot_fail "$shown: $broken" 65
   jq -c 'del(.provenance) | walk(if type == "string" then gsub("[^A-Za-z0-9 _.,:/^+*()=%-]"; "?") else . end)' "$work/raw" >"$work/$3"
   rm "$work/raw"
 }

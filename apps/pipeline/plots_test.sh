@@ -68,8 +68,12 @@ refused 64 '^plot-pose-map: expected one input, or --directional' "$scripts/plot
 refused 64 '^plot-pose-map: expected -o with a name' "$scripts/plot-pose-map" --terminal pose-map.json
 # Strings of a document never reach gnuplot as commands.
 jq '.index.name = "a\u0027; system \"touch pwned\" #"' pose-map.json >evil.json
-"$scripts/plot-pose-map" evil.json -o evil.svg
-check "no command runs" test ! -e pwned -a -s evil.svg
+refused 65 '^plot-pose-map: evil.json: /index/name: expected one of' "$scripts/plot-pose-map" evil.json -o x.svg
+jq '.cut.milling = "a\" ; system \"touch pwned\" #`touch pwned`" | .method = "spectral"' lobes.json >evil.json
+refused 65 '^plot-lobes: evil.json: /cut/milling: expected one of' "$scripts/plot-lobes" evil.json -o x.svg
+jq '.h[0].response = "x\u0027; system \"touch pwned\" #`touch pwned`"' frf.json >evil.json
+"$scripts/plot-frf" evil.json -o evil.svg 2>.err || check "a name is drawn or refused" grep -q 'evil.json: /h/0/response' .err
+check "no command runs" test ! -e pwned
 jq '.score = .score[1:]' pose-map.json >short.json
 refused 65 '^plot-pose-map: short.json: /score: expected a row' "$scripts/plot-pose-map" short.json -o x.svg
 refused 73 '^plot-pose-map: none/x.svg: cannot be created' "$scripts/plot-pose-map" pose-map.json -o none/x.svg
@@ -98,9 +102,16 @@ check "without a word" test ! -s .err
 jq '.placement.map |= map(.outcome = "no-pose" | .objective = null | .bound = null)' place.json >nowhere.json
 check "places that are not driven" "$scripts/plot-path" nowhere.json -o nowhere.svg
 jq '.points[3] |= del(.tcp_mm)' path.json >short.json
-refused 65 '^plot-path: short.json: /points: expected poses' "$scripts/plot-path" short.json -o x.svg
-for field in .singularity_margin '.joint_speed_limit_deg_per_s[2]'; do
-  jq "$field = \"system(1)\"" path.json >hostile.json
-  refused 65 '^plot-path: hostile.json: .*expected numbers' "$scripts/plot-path" hostile.json -o x.svg
+refused 65 '^plot-path: short.json: /points/3/tcp_mm: missing' "$scripts/plot-path" short.json -o x.svg
+# A text where a number belongs would be a command, of gnuplot (system) or of the shell's arithmetic.
+for plot in lobes frf pose-map stabilization path; do
+  places=0
+  while read -r place; do
+    jq --argjson place "$place" 'setpath($place; "a[system(1)]")' $plot.json >hostile.json
+    "$scripts/plot-$plot" hostile.json -o hostile.svg 2>.err
+    test $? -eq 65 -a ! -e hostile.svg && grep -q "^plot-$plot: hostile.json: /.*: expected" .err && places=$((places + 1)) ||
+      check "plot-$plot: a text at $place" false
+  done < <(jq -c 'del(.provenance, .cut, .what_to_run) | [paths(type == "number")] | map(select(all(.[]; . == 0 or type == "string"))) | .[]' $plot.json)
+  check "plot-$plot: no text in the place of a number" test $places -ge 2
 done
 refused 65 '^plot-path: wall.json: /height_mm: expected a horizontal plane' "$scripts/plot-path" path.json --map wall.json -o x.svg
