@@ -65,7 +65,7 @@ with '.holder = {x: .holder}' '/holder/y: missing'
 with '.joint = "glued"' '/joint: "glued": expected "rigid"'
 with '.joint.k1_n_per_m = -1' '/joint/k1_n_per_m: -1: expected a number above 0'
 with '.frequency_hz.from = 0' '/frequency_hz/from: 0: expected a number above 0'
-with '.frequency_hz = [1e200]' '/frequency_hz: 1e.200: the receptance is not finite: expected'
+with '.frequency_hz = [1e80]' '/frequency_hz: 1e.80: the receptance is not finite: expected'
 with '.frequency_hz = [3, 2]' '/frequency_hz/1: 2: expected increasing'
 with '.format = "stablecut/frf/1"' '/format: .*expected "stablecut/assembly/1"'
 check "nothing was written" test ! -e result.json

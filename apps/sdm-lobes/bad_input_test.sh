@@ -20,7 +20,7 @@ cut_with '.radial_immersion = 1.5' '/radial_immersion: 1.5: expected'
 cut_with 'del(.radial_immersion)' '/radial_immersion: missing'
 cut_with 'del(.radial_immersion) | .entry_deg = 90 | .exit_deg = 60' '/exit_deg: 60: expected an angle above entry_deg'
 cut_with 'del(.radial_immersion) | .entry_deg = -5 | .exit_deg = 60' '/entry_deg: -5: expected'
-cut_with '.chart.depth_mm.from = -1' '/chart/depth_mm/from: -1: expected a number not below 0'
+cut_with '.chart.depth_mm.from = -1' '/chart/depth_mm/from: -1: expected a depth from 0'
 cut_with '.chart.speed_rpm.from = 0' '/chart/speed_rpm/from: 0: expected a number above 0'
 cut_with '.chart.speed_rpm.to = 10' '/chart/speed_rpm/to: 10: expected a number above from'
 cut_with '.kt_n_per_mm = 1' '/kt_n_per_mm: unknown field: expected kt_n_per_mm2'
@@ -103,7 +103,7 @@ refused 64 '^sdm-lobes: --kr: missing' sdm-lobes "$table" --teeth 2 --kt 600
 refused 64 '^sdm-lobes: --cut: expected either' sdm-lobes "$table" --cut "$cut" --teeth 2
 refused 64 '^sdm-lobes: -: expected standard input for one input only' sdm-lobes --cut - <"$cut"
 refused 64 '^sdm-lobes: --speed: 5000:20000: expected FROM:TO:COUNT' sdm-lobes "$table" --cut "$cut" --speed 5000:20000
-refused 64 '^sdm-lobes: --depth: -1: expected depths not below 0' sdm-lobes "$table" --cut "$cut" --depth -1:2:3
+refused 64 '^sdm-lobes: --depth: -1: expected depths from 0' sdm-lobes "$table" --cut "$cut" --depth -1:2:3
 refused 64 '^sdm-lobes: --speed: 0: expected speeds above 0' sdm-lobes "$table" --cut "$cut" --speed 0:2:3
 refused 64 '^sdm-lobes: --teeth: 0: expected' sdm-lobes "$table" --teeth 0 --kt 1 --kr 1 --milling up --immersion 1
 refused 64 '^sdm-lobes: --kt: nan: expected' sdm-lobes "$table" --teeth 1 --kt nan --kr 1 --milling up --immersion 1

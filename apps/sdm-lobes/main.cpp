@@ -173,8 +173,9 @@ class SdmLobes : public cli::Tool {
     const Range depth = depth_.value_or(cut_.cut().depth_mm.value_or(kDefaultDepth));
     cli::refuse_if(!(speed.from > 0),
                    "--speed: " + number_text(speed.from) + ": expected speeds above 0 rpm");
-    cli::refuse_if(depth.from < 0,
-                   "--depth: " + number_text(depth.from) + ": expected depths not below 0 mm");
+    const double wrong = depth.from < 0 ? depth.from : depth.to;
+    cli::refuse_if(wrong < 0 || wrong > document::kMostDepthMm,
+                   "--depth: " + number_text(wrong) + ": expected depths from 0 to 10000 mm");
     lobes.speed_rpm = speed.values();
     lobes.depth_mm = depth.values();
     lobes.cut = cut_.as_used(speed, depth);

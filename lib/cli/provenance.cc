@@ -25,6 +25,10 @@ std::string sha256(const std::string& bytes) {
 
 namespace {
 
+bool is_sha256(const std::string& text) {
+  return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
 // True for what provenance() writes. Anything else under that name is not carried into an output.
 bool is_provenance(const document::Json& value) {
   const auto has = [](const document::Json& object, const char* name,
@@ -39,7 +43,7 @@ bool is_provenance(const document::Json& value) {
   const auto is_text = [](const document::Json& item) { return item.is_string(); };
   const auto is_input = [&](const document::Json& item) {
     return item.is_object() && has(item, "name", &document::Json::is_string) &&
-           has(item, "sha256", &document::Json::is_string) &&
+           has(item, "sha256", &document::Json::is_string) && is_sha256(item["sha256"].get<std::string>()) &&
            (!item.contains("from") || is_provenance(item["from"]));
   };
   return std::all_of(value["arguments"].begin(), value["arguments"].end(), is_text) &&

@@ -21,6 +21,7 @@ constexpr Bound kLead{
     .most = 90,
     .open_least = true,
     .words = "a lead angle above 0 and at most 90 degrees, from the plane normal to the axis"};
+constexpr Bound kDepth{.least = 0, .most = kMostDepthMm, .words = "a depth from 0 to 10000 mm"};
 constexpr Bound kHelix{.least = -90,
                        .most = 90,
                        .open_least = true,
@@ -174,7 +175,7 @@ CutDocument cut_from_json(const Json& document, const Source& source) {
   if (const auto chart = root.find("chart")) {
     chart->check_names({"speed_rpm", "depth_mm"});
     if (const auto speed = chart->find("speed_rpm")) cut.speed_rpm = chart_range(*speed, kPositive);
-    if (const auto depth = chart->find("depth_mm")) cut.depth_mm = chart_range(*depth, kNotNegative);
+    if (const auto depth = chart->find("depth_mm")) cut.depth_mm = chart_range(*depth, kDepth);
   }
   return cut;
 }

@@ -20,6 +20,9 @@ struct CutDocument {
   std::optional<Range> depth_mm;   ///< of the chart
 };
 
+/// The deepest cut that a chart may have: no tool is longer.
+inline constexpr double kMostDepthMm = 10'000;
+
 /// Points along an axis of the chart when nothing says how many.
 inline constexpr int kDefaultChartCount = 64;
 

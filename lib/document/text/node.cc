@@ -83,6 +83,9 @@ double Node::number(const Bound& bound) const {
                       (bound.open_least ? value > bound.least : value >= bound.least) &&
                       (bound.open_most ? value < bound.most : value <= bound.most);
   if (!inside) fail(expected);
+  if (std::abs(value) > kLargestNumber) fail("expected a number of at most 1e100 in size");
+  if (bound.open_least && bound.least == 0 && value < 1 / kLargestNumber)
+    fail("expected a number of at least 1e-100");
   return value;
 }
 
@@ -121,7 +124,8 @@ Eigen::VectorXd Node::numbers(const Bound& bound) const {
   for (const Json& item : *value_) {
     // The common case without building a pointer.
     const double value = item.is_number() ? item.get<double>() : std::numeric_limits<double>::quiet_NaN();
-    const bool inside = std::isfinite(value) && value > bound.least && value < bound.most;
+    const bool inside = std::abs(value) <= kLargestNumber && value > bound.least + 1 / kLargestNumber &&
+                        value < bound.most;
     result[i] =
         inside ? value : Node(item, *source_, pointer_step(pointer_, std::to_string(i))).number(bound);
     ++i;

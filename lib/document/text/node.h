@@ -14,7 +14,11 @@
 
 namespace stablecut::document {
 
-/// What a number has to be, besides finite.
+/// A number larger than this in size is refused, and one that must be above 0 and is below its inverse: no
+/// quantity is so large or small, and products of a few such numbers would overflow.
+inline constexpr double kLargestNumber = 1e100;
+
+/// What a number has to be besides that.
 struct Bound {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
