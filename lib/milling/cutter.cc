@@ -15,6 +15,7 @@ namespace {
 // Ends of pieces closer than this are one: an entry and an exit fall together when a whole number of pitches
 // is in cut, as in slotting with an even number of teeth. Radians.
 constexpr double kSameAngle = 1e-12;
+constexpr double kAtWall = 1e-9;  // rad
 
 // Force per depth along the cut, inwards and along the axis: of a displacement outwards, and of one along the
 // axis. N/m2, or of process damping N s/m2.
@@ -245,6 +246,13 @@ void set_immersion(Cutter& cutter, bool up_milling, double radial_immersion) {
   }
   cutter.entry_rad = up_milling ? 0 : std::acos(2 * radial_immersion - 1);
   cutter.exit_rad = up_milling ? std::acos(1 - 2 * radial_immersion) : kPi;
+}
+
+std::vector<double> wall_angles(const Cutter& cutter) {
+  std::vector<double> walls;
+  if (cutter.entry_rad < kAtWall) walls.push_back(0);
+  if (cutter.exit_rad > kPi - kAtWall) walls.push_back(kPi);
+  return walls;
 }
 
 CutSchedule cut_schedule(const Cutter& cutter, double revolutions_per_s, double depth_m) {

@@ -52,6 +52,10 @@ struct Cutter {
 /// from acos(2 ae/D - 1) to pi.
 void set_immersion(Cutter& cutter, bool up_milling, double radial_immersion);
 
+/// The walls that a cut leaves, by the angle at which a tooth touches one: 0 on the side of the cut frame's
+/// +Y where teeth enter there (up milling), pi on that of -Y where they leave there (down milling).
+std::vector<double> wall_angles(const Cutter& cutter);
+
 /// Means over the depth of cut of functions of the angle kappa between the edge and the plane normal to the
 /// axis: 90 degrees for an end mill.
 struct EdgeMeans {
