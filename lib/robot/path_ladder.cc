@@ -70,6 +70,7 @@ StiffnessTask point_task(const PathTask& task, const PathFrames& frames, std::si
     at.force_n = frames.feed[point] * *at.force_n;
     at.force_in_tool = false;
   }
+  at.feed = frames.feed[point].col(0);
   return at;
 }
 
@@ -86,9 +87,8 @@ PathModel::PathModel(const Robot& robot, const PathTask& task)
   const auto to_home = inverse_.home_from_base().linear();
   for (std::size_t i = 0; i < size(); ++i) {
     const StiffnessTask at = point_task(task, frames_, i);
-    Eigen::Vector3d force = at.force_n.value_or(Eigen::Vector3d::Zero());
-    if (!at.force_in_tool) force = to_home * force;
-    force_.push_back(force);
+    load_.push_back(at.force_n && at.force_in_tool ? at.load(*at.force_n)
+                                                   : turned(load_in_base(at, frames_.tool[i]), to_home));
     home_point_.push_back(inverse_.home_from_base() * task.path[i].position);
   }
 }
@@ -143,8 +143,9 @@ void PathModel::costs(const ArmLanes& lanes, std::size_t point, const Eigen::Mat
   if (springs_.beyond_joints) add_spring_compliances(lanes, springs_, home_point_[point].data(), compliance);
   const StiffnessIndex& index = *task_.stiffness.index;
   const bool turns = task_.stiffness.force_in_tool && !task_.force_in_feed;
-  const Eigen::Vector3d force = turns ? Eigen::Vector3d(axes * force_[point]) : force_[point];
-  index.arm_scores(compliance, axes, task_.stiffness.load(force), cost);
+  ForceLoad load = load_[point];
+  if (turns) load.force_n = axes * load.force_n;
+  index.arm_scores(compliance, axes, load, cost);
   for (int arm = 0; arm < kArms; ++arm) cost[arm] = path_cost(index, cost[arm]);
 }
 

@@ -149,8 +149,8 @@ class PathModel {
   ArmSprings springs_;
   PathFrames frames_;
   AngleCopies copies_;
-  bool coupled_copies_;                 // any joint that has copies follows another or is followed
-  std::vector<Eigen::Vector3d> force_;  // home frame, of each point; in the tool's frame where it is that
+  bool coupled_copies_;          // any joint that has copies follows another or is followed
+  std::vector<ForceLoad> load_;  // home frame, of each point; the force in the tool's frame where it is that
   std::vector<Eigen::Vector3d> home_point_;  // the tool point, home frame
 };
 

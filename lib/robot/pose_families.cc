@@ -80,7 +80,7 @@ Symmetry symmetry_of(const PoseScanner& scanner) {
   Symmetry symmetry;
   symmetry.tool_turn = !scanner.redundancy_matters() && !task.redundancy.is_point();
   const bool load_turns = !task.stiffness.index->needs_force || task.stiffness.force_in_tool ||
-                          along_axis1(*task.stiffness.force_n);
+                          (!task.stiffness.cut && along_axis1(*task.stiffness.force_n));
   symmetry.base_turn = load_turns && scanner.springs().base_alike_about_axis1() &&
                        along_axis1(task.tool_axis) &&
                        along_axis1(task.plane.x_axis.cross(task.plane.y_axis)) && !task.x.is_point() &&

@@ -5,50 +5,31 @@
 #include <limits>
 
 #include "numerics/distributions.h"
+#include "robot/compliance_slope.h"
 #include "robot/keep_out.h"
 
 namespace stablecut::robot {
 namespace {
 
-constexpr double kGradientStep = 1e-5;  // of C_tt
-constexpr double kRigid = 1e-12;        // of the largest principal compliance: below, rounding
-
-// d value(C) / d c_k by central differences; C is linear in the compliances. A spring that does not move the
-// tool point has none.
-template <typename Value>
-Eigen::VectorXd gradient(const RobotPose& pose, const std::vector<Spring>& springs,
-                         const Eigen::Matrix3d& compliance, const Value& value) {
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(springs.size()));
-  for (std::size_t k = 0; k < springs.size(); ++k) {
-    const Eigen::Vector3d v = spring_axis(pose, springs[k]).displacement(pose.tool.translation());
-    const double size = v.squaredNorm();
-    if (!(size > 0)) continue;
-    const double step = kGradientStep * compliance.norm();  // of what c_k adds to C along v
-    const Eigen::Matrix3d change = step / size * v * v.transpose();
-    result[k] = size * (value(compliance + change) - value(compliance - change)) / (2 * step);
-  }
-  return result;
-}
-
-double propagated(const Eigen::VectorXd& slope, const ElasticityErrors& errors) {
-  return errors.covariance ? std::max(0.0, slope.dot(*errors.covariance * slope)) : 0;
-}
+constexpr double kRigid = 1e-12;  // of the largest principal compliance: below, rounding
 
 // Of a stiffness, as a share of it. A discrepancy that does not say which load its absolute part belongs to
 // is one of the task's force; without any that part cannot be told as a share.
 double relative_variance(Discrepancy discrepancy, double stiffness, const StiffnessTask& task) {
   if (!(discrepancy.force_n > 0)) {
-    discrepancy.force_n = task.force_n ? task.force_n->norm() : 1;
-    if (!task.force_n) discrepancy.absolute_m = 0;
+    discrepancy.force_n = task.cut ? task.cut->mean_n.norm() : task.force_n ? task.force_n->norm() : 1;
+    if (!task.has_force()) discrepancy.absolute_m = 0;
   }
   return discrepancy.relative_variance(1 / stiffness);
 }
 
-// A score that is better smaller is a deflection, else a stiffness. One that is made of the stiffness along
-// several axes of the tool is off, as a share, by no more than the worst of them, however they hang together.
+// A score that is better smaller is a deflection, or a component of one, else a stiffness. One that is made
+// of the stiffness along several axes of the tool is off, as a share, by no more than the worst of them,
+// however they hang together.
 double score_discrepancy(const PoseReport& report, const StiffnessTask& task,
                          const Discrepancy& discrepancy) {
   if (discrepancy.none()) return 0;
+  if (task.index->needs_cut) return discrepancy.variance(report.largest_deflection_m);
   if (!task.index->larger_is_better) return discrepancy.variance(report.score);
   double share = 0;
   for (int i = 0; i < 3; ++i) {
@@ -90,20 +71,24 @@ PoseReport report_pose(const Robot& robot, const JointAngles& angles, const Stif
   for (int j = 0; j < kJoints; ++j) report.joint_margin_rad[j] = robot.range(j, angles).margin_rad(angles[j]);
   report.singularity_margin = singularity_margin(pose);
   report.keep_out_margin_m = keep_out_margin_m(robot, pose);
-  if (task.force_n && task.load(*task.force_n).varies())
+  if (task.has_force() && load_in_base(task, axes).varies()) {
     report.worst_force_n = worst_force(task, compliance, axes);
-  report.score_gradient = gradient(pose, elasticity.springs, compliance,
-                                   [&](const Eigen::Matrix3d& c) { return stiffness_score(c, axes, task); });
+    report.largest_deflection_m = (compliance * *report.worst_force_n).norm();
+  }
+  if (task.cut) report.cut = cut_deflection(pose, task, elasticity, errors);
+  report.score_gradient =
+      compliance_gradient(pose, elasticity.springs, compliance,
+                          [&](const Eigen::Matrix3d& c) { return stiffness_score(c, axes, task); });
   if (errors.known() && std::isfinite(report.score)) {
     report.discrepancy_variance = score_discrepancy(report, task, errors.discrepancy);
     report.score_std = std::sqrt(propagated(report.score_gradient, errors) + report.discrepancy_variance);
   }
-  if (task.force_n) {
+  if (task.has_force()) {
     const Eigen::Vector3d force = force_in_base(task, axes);
     report.deflection_m = compliance * force;
     if (errors.known()) {
-      const Eigen::VectorXd slope = gradient(pose, elasticity.springs, compliance,
-                                             [&](const Eigen::Matrix3d& c) { return (c * force).norm(); });
+      const Eigen::VectorXd slope = compliance_gradient(
+          pose, elasticity.springs, compliance, [&](const Eigen::Matrix3d& c) { return (c * force).norm(); });
       report.deflection_std_m =
           std::sqrt(propagated(slope, errors) + errors.discrepancy.variance(report.deflection_m->norm()));
     }

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "robot/cut_deflection.h"
 #include "robot/joint_stiffness.h"
 #include "robot/stiffness_index.h"
 
@@ -26,6 +27,8 @@ struct PoseReport {
   double keep_out_margin_m = 0;   ///< keep_out_margin_m() of the pose
   /// With which the deflection is largest, where the task's force varies; base frame, N.
   std::optional<Eigen::Vector3d> worst_force_n;
+  double largest_deflection_m = 0;   ///< under that
+  std::optional<CutDeflection> cut;  ///< where the task has a cut
   /// Standard deviations of what a measurement will show: by linear propagation of the compliances'
   /// covariance [JCGM2008, 5.2], and the discrepancy. Absent where neither is known.
   std::optional<double> score_std, deflection_std_m;

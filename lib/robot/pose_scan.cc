@@ -37,14 +37,11 @@ PoseScanner::PoseScanner(const Robot& robot, const PoseTask& task)
   for (int i = 0; i < task.redundancy.count; ++i) {
     const double turn = task.redundancy.at(i);
     const Eigen::Isometry3d tool = tool_frame(Eigen::Vector3d::Zero(), task.tool_axis, turn);
-    Sample sample{turn, inverse_.target_of(tool), to_home * tool.linear(), Eigen::Vector3d::Zero()};
-    if (const auto& force = task.stiffness.force_n) {
-      if (task.stiffness.force_in_tool)
-        sample.force = sample.axes * *force;
-      else
-        sample.force = to_home * *force;
-    }
-    samples_.push_back(sample);
+    const Eigen::Matrix3d axes = to_home * tool.linear();
+    const ForceLoad load = task.stiffness.force_n && task.stiffness.force_in_tool
+                               ? task.stiffness.load(axes * *task.stiffness.force_n)
+                               : turned(load_in_base(task.stiffness, tool.linear()), to_home);
+    samples_.push_back({turn, inverse_.target_of(tool), axes, load});
   }
 }
 
@@ -67,7 +64,7 @@ bool PoseScanner::any_keeps_limits(const double margin[kBranches]) const {
 void PoseScanner::arm_merits(const Sample& sample, const double compliance[6][kArms],
                              double merit[kArms]) const {
   const StiffnessIndex& index = *task_.stiffness.index;
-  index.arm_scores(compliance, sample.axes, task_.stiffness.load(sample.force), merit);
+  index.arm_scores(compliance, sample.axes, sample.load, merit);
   if (index.larger_is_better) return;
   for (int arm = 0; arm < kArms; ++arm) merit[arm] = -merit[arm];
 }

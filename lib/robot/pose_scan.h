@@ -60,10 +60,10 @@ class PoseScanner {
 
  private:
   struct Sample {
-    double turn;            // redundancy angle, rad
-    ArmTarget target;       // for a tool point at the base's origin
-    Eigen::Matrix3d axes;   // of the tool, home frame
-    Eigen::Vector3d force;  // of the task, home frame; 0 without one
+    double turn;           // redundancy angle, rad
+    ArmTarget target;      // for a tool point at the base's origin
+    Eigen::Matrix3d axes;  // of the tool, home frame
+    ForceLoad load;        // of the task, home frame
   };
   // One sample and branch at a point.
   struct Candidate {

@@ -52,6 +52,7 @@ std::vector<PartMove> part_moves(const Robot& robot, const PoseTask& task, const
           there.tool_axis = turned * task.tool_axis;
           if (there.stiffness.force_n && !task.stiffness.force_in_tool)
             there.stiffness.force_n = turned * *task.stiffness.force_n;
+          there.stiffness.feed = turned * task.stiffness.feed;
         } else {
           there.plane.origin += move.amount * along;
         }

@@ -22,6 +22,12 @@ double squared_displacement(ArmCompliances c, const Eigen::Ref<const Eigen::Vect
   return x * x + y * y + z * z;
 }
 
+Eigen::Matrix3d matrix_of(ArmCompliances c, int arm) {
+  Eigen::Matrix3d one;
+  one << c[0][arm], c[1][arm], c[2][arm], c[1][arm], c[3][arm], c[4][arm], c[2][arm], c[4][arm], c[5][arm];
+  return one;
+}
+
 // sqrt(Kx^2 + Ky^2 + Kz^2) along the tool's axes ([Yi2025, eq. 15], corrected).
 double combined(Compliance compliance, Tool tool, Force) {
   double sum = 0;
@@ -55,6 +61,11 @@ void axial_of_arms(ArmCompliances c, Tool tool, Force, double score[kArms]) {
 
 LargestDeflection largest_deflection(Compliance compliance, Tool tool, Force load) {
   if (load.cone_rad > 0) return largest_over_cone(compliance, load.force_n, load.cone_rad, load.smoothing);
+  if (load.cut) {
+    const LargestOfTurn largest =
+        largest_length(compliance * load.cut_frame, load.cut->turning_n, load.smoothing);
+    return {largest.length, load.cut_frame * load.cut->turning_n.col(largest.at)};
+  }
   if (load.turning_n > 0)
     return largest_over_turn(compliance, load.force_n, tool.col(2), load.turning_n, load.smoothing);
   return {(compliance * load.force_n).norm(), load.force_n};
@@ -70,10 +81,22 @@ void deflection_of_arms(ArmCompliances c, Tool tool, Force load, double score[kA
       score[arm] = std::sqrt(squared_displacement(c, load.force_n, arm));
       continue;
     }
-    Eigen::Matrix3d one;
-    one << c[0][arm], c[1][arm], c[2][arm], c[1][arm], c[3][arm], c[4][arm], c[2][arm], c[4][arm], c[5][arm];
-    score[arm] = largest_deflection(one, tool, load).length;
+    score[arm] = largest_deflection(matrix_of(c, arm), tool, load).length;
   }
+}
+
+// The largest deflection of a turn along one axis of the cut's frame.
+double largest_along(Compliance compliance, Force load, int axis) {
+  const Eigen::RowVector3d yields = load.cut_frame.col(axis).transpose() * compliance * load.cut_frame;
+  return largest_component(yields, load.cut->turning_n, load.smoothing);
+}
+template <int kAxis>
+double along_cut(Compliance compliance, Tool, Force load) {
+  return largest_along(compliance, load, kAxis);
+}
+template <int kAxis>
+void along_cut_of_arms(ArmCompliances c, Tool, Force load, double score[kArms]) {
+  for (int arm = 0; arm < kArms; ++arm) score[arm] = largest_along(matrix_of(c, arm), load, kAxis);
 }
 
 }  // namespace
@@ -86,6 +109,7 @@ std::span<const StiffnessIndex> stiffness_indices() {
        .units_per_score = 1,
        .larger_is_better = true,
        .needs_force = false,
+       .needs_cut = false,
        .feels_tool_turn = false,
        .along = {},
        .has_ridge = true,
@@ -97,6 +121,7 @@ std::span<const StiffnessIndex> stiffness_indices() {
        .units_per_score = 1,
        .larger_is_better = true,
        .needs_force = false,
+       .needs_cut = false,
        .feels_tool_turn = true,
        .along = {true, true, true},
        .has_ridge = false,
@@ -108,6 +133,7 @@ std::span<const StiffnessIndex> stiffness_indices() {
        .units_per_score = 1,
        .larger_is_better = true,
        .needs_force = false,
+       .needs_cut = false,
        .feels_tool_turn = false,
        .along = {false, false, true},
        .has_ridge = false,
@@ -119,11 +145,36 @@ std::span<const StiffnessIndex> stiffness_indices() {
        .units_per_score = 1e6,
        .larger_is_better = false,
        .needs_force = true,
+       .needs_cut = false,
        .feels_tool_turn = false,
        .along = {},
        .has_ridge = false,
        .score = deflection,
        .arm_scores = deflection_of_arms},
+      {.name = "surface",
+       .meaning = "the largest deflection normal to the wall over a turn of a cut, um, least",
+       .unit = "um",
+       .units_per_score = 1e6,
+       .larger_is_better = false,
+       .needs_force = true,
+       .needs_cut = true,
+       .feels_tool_turn = false,
+       .along = {},
+       .has_ridge = false,
+       .score = along_cut<1>,
+       .arm_scores = along_cut_of_arms<1>},
+      {.name = "feed",
+       .meaning = "the largest along its feed, um, least",
+       .unit = "um",
+       .units_per_score = 1e6,
+       .larger_is_better = false,
+       .needs_force = true,
+       .needs_cut = true,
+       .feels_tool_turn = false,
+       .along = {},
+       .has_ridge = false,
+       .score = along_cut<0>,
+       .arm_scores = along_cut_of_arms<0>},
   };
   return indices;
 }
@@ -142,25 +193,44 @@ bool StiffnessTask::feels_tool_turn() const {
 }
 
 void check_force(const StiffnessTask& task) {
-  if (task.index->needs_force && !task.force_n)
+  if (task.index->needs_cut && !task.cut)
+    throw InvalidArgument(std::string("cut: missing: expected a cut for the index ") + task.index->name);
+  if (task.index->needs_force && !task.has_force())
     throw InvalidArgument(std::string("force: missing: expected a force for the index ") + task.index->name);
 }
 
+ForceLoad turned(ForceLoad load, const Eigen::Matrix3d& turn) {
+  load.force_n = turn * load.force_n;
+  load.cut_frame = turn * load.cut_frame;
+  return load;
+}
+
 Eigen::Vector3d force_in_base(const StiffnessTask& task, const Eigen::Matrix3d& tool_rotation) {
+  if (task.cut) return cut_frame(task.feed, tool_rotation.col(2)) * task.cut->mean_n;
   if (!task.force_n) throw InvalidArgument("force: missing: expected a force");
   return task.force_in_tool ? Eigen::Vector3d(tool_rotation * *task.force_n) : *task.force_n;
 }
 
+ForceLoad load_in_base(const StiffnessTask& task, const Eigen::Matrix3d& tool_rotation) {
+  if (!task.has_force()) return task.load(Eigen::Vector3d::Zero());
+  ForceLoad load = task.load(force_in_base(task, tool_rotation));
+  if (task.cut) {
+    load.cut = task.cut.get();
+    load.cut_frame = cut_frame(task.feed, tool_rotation.col(2));
+  }
+  return load;
+}
+
 Eigen::Vector3d worst_force(const StiffnessTask& task, const Eigen::Matrix3d& compliance,
                             const Eigen::Matrix3d& tool_rotation) {
-  const ForceLoad load = task.load(force_in_base(task, tool_rotation));
-  return largest_deflection(compliance, tool_rotation, load).force_n;
+  return largest_deflection(compliance, tool_rotation, load_in_base(task, tool_rotation)).force_n;
 }
 
 double stiffness_score(const Eigen::Matrix3d& compliance, const Eigen::Matrix3d& tool_rotation,
                        const StiffnessTask& task) {
-  const ForceLoad load = task.index->needs_force ? task.load(force_in_base(task, tool_rotation))
-                                                 : ForceLoad(Eigen::Vector3d::Zero());
+  check_force(task);
+  const ForceLoad load =
+      task.index->needs_force ? load_in_base(task, tool_rotation) : ForceLoad(Eigen::Vector3d::Zero());
   return task.index->score(compliance, tool_rotation, load);
 }
 
@@ -172,7 +242,7 @@ double smooth_score(const Eigen::Matrix3d& compliance, const Eigen::Matrix3d& to
         std::pow((compliances / compliances[0]).cwiseMax(0.0).array().pow(power).sum(), 1 / power);
     return stiffness_score(compliance, tool_rotation, task) / mean;
   }
-  ForceLoad load = task.load(force_in_base(task, tool_rotation));
+  ForceLoad load = load_in_base(task, tool_rotation);
   load.smoothing = 1 / power;
   return task.index->score(compliance, tool_rotation, load);
 }

@@ -2,13 +2,13 @@
 
 #include <cmath>
 
+#include "robot/cut_load.h"
 #include "robot/kinematics.h"
 
 namespace stablecut::robot {
 namespace {
 
 constexpr double kStandstill = 1e-9;      // m: a move shorter than this only turns the tool
-constexpr double kAlongTool = 1e-6;       // sine: a feed nearer to the tool axis has no direction across it
 constexpr double kOpposite = -1 + 1e-12;  // cosine: axes that are turned over, with no least rotation
 
 // The direction of the path at a point: of the move that leaves it, or at the end of the one that led there.
@@ -57,9 +57,8 @@ PathFrames path_frames(const ToolPath& path) {
         first ? Eigen::Matrix3d(tool_frame(Eigen::Vector3d::Zero(), axis, 0).linear())
               : with_axis(carried(frames.tool.back().col(0), path[i - 1].axis, axis), axis);
     Eigen::Vector3d feed = path[i].feed.value_or(path_direction(path, i));
-    if (!(axis.cross(feed).norm() > kAlongTool * feed.norm()))
-      feed = first ? tool.col(0) : Eigen::Vector3d(frames.feed.back().col(0));
-    if (!(axis.cross(feed).norm() > kAlongTool)) feed = tool.col(0);
+    if (!across_tool(feed, axis)) feed = first ? tool.col(0) : Eigen::Vector3d(frames.feed.back().col(0));
+    if (!across_tool(feed, axis)) feed = tool.col(0);
     Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
     frame.linear() = tool;
     const double distance = first ? 0 : (path[i].position - path[i - 1].position).norm();
