@@ -33,6 +33,13 @@ void check_pose(const Robot& robot, const PoseTask& task, const FoundPose& found
         Approx(found.score).epsilon(1e-10));
 }
 
+void with_cut(StiffnessTask& task, std::mt19937_64& generator) {
+  task.cut = std::make_shared<CutLoad>(random_cut(generator));
+  task.feed = Eigen::Vector3d(uniform(generator, -1, 1), uniform(generator, -1, 1), 0.2);
+  task.force_n.reset();
+  task.force_in_tool = false;
+}
+
 }  // namespace
 
 TEST_CASE("tool-down optima of the KR360, to 0.1 %, on limits and inside") {
@@ -171,6 +178,7 @@ TEST_CASE("random tasks: the search is never beaten by random poses") {
     task.stiffness.force_n = Eigen::Vector3d(uniform(generator, -500, 500), uniform(generator, -500, 500),
                                              uniform(generator, -500, 500));
     task.stiffness.force_in_tool = n % 5 == 0;
+    if (task.stiffness.index->needs_cut) with_cut(task.stiffness, generator);
     if (n % 3 == 1)
       task.tool_axis = Eigen::Vector3d(uniform(generator, -1, 1), uniform(generator, -1, 1), -1).normalized();
     if (n % 4 == 3) task.redundancy = {-0.5, 1, 5};
@@ -192,6 +200,7 @@ TEST_CASE(
     INFO("task " << n);
     PoseTask task = tool_down(kr360(), 1, stiffness_indices()[n % stiffness_indices().size()].name, 2);
     task.plane.origin = robot.base.translation() + Eigen::Vector3d(0, 0, uniform(generator, -0.5, 1.5));
+    if (task.stiffness.index->needs_cut) with_cut(task.stiffness, generator);
     const double size = n % 4 == 0 ? 0 : n % 4 == 1 ? 0.01 : uniform(generator, 0.1, 1);
     const auto window = [&](double at) { return Range{at, at + size, size > 0 ? 5 : 1}; };
     task.x = window(uniform(generator, -2, 1.5)), task.y = window(uniform(generator, -2, 1.5));
@@ -354,6 +363,7 @@ TEST_CASE("no pose, and why") {
   task.singularity_margin = 0.9;
   CHECK(obstacle(task).kind == Obstacle::Kind::kSingularity);
   CHECK_THROWS_AS(plane_reach(robot, {{0, 0, 9}, {1, 0, 0}, {0, 1, 0}}, task.tool_axis), NoPose);
-  task.stiffness = {&stiffness_index("deflection"), {}, false};
+  task.stiffness = {};
+  task.stiffness.index = &stiffness_index("deflection");
   CHECK_THROWS_AS(search_poses(robot, task, 5, 1), InvalidArgument);
 }

@@ -71,6 +71,23 @@ inline JointAngles random_angles(const Robot& robot, std::mt19937_64& generator)
   return angles;
 }
 
+/// One straight tooth of four, up milling to 60 to 120 degrees: forces as the cutting force model has them.
+inline CutLoad random_cut(std::mt19937_64& generator) {
+  const double exit = uniform(generator, kPi / 3, 2 * kPi / 3), size = uniform(generator, 100, 600);
+  const double across = uniform(generator, 0.2, 0.6), axial = uniform(generator, 0, 0.2);
+  const int steps = 90;
+  CutLoad cut;
+  cut.depth_m = 1e-3;
+  cut.turning_n.resize(3, steps);
+  for (int i = 0; i < steps; ++i) {
+    const double s = std::sin(exit * i / (steps - 1)), c = std::cos(exit * i / (steps - 1));
+    cut.turning_n.col(i) = size * s * Eigen::Vector3d(-c - across * s, s - across * c, axial);
+  }
+  cut.mean_n = 0.8 * cut.turning_n.rowwise().mean();
+  cut.walls.push_back({true, cut.turning_n.leftCols(4)});
+  return cut;
+}
+
 inline Eigen::Isometry3d random_frame(std::mt19937_64& generator, double size_m) {
   const auto normal = [&] { return numerics::unit_normal(generator); };
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();

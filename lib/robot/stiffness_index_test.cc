@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <deque>
 #include <set>
 #include <string>
 
@@ -34,6 +35,20 @@ Eigen::Matrix3d random_compliance(std::mt19937_64& generator) {
   return axes * principal.asDiagonal() * axes.transpose();
 }
 
+// A force; for an index that needs one as the mean of a cut whose forces lie about it.
+ForceLoad load_of(const StiffnessIndex& index, const Eigen::Vector3d& force) {
+  ForceLoad load = force;
+  if (!index.needs_cut) return load;
+  static std::deque<CutLoad> cuts;
+  CutLoad& cut = cuts.emplace_back();
+  cut.mean_n = force;
+  cut.turning_n.resize(3, 3);
+  cut.turning_n << 2 * force, 0.5 * force, 0.5 * force;
+  cut.turning_n.row(1).tail(2) << 30, -30;
+  load.cut = &cut;
+  return load;
+}
+
 }  // namespace
 
 TEST_CASE("indices are known by their names") {
@@ -55,12 +70,13 @@ TEST_CASE("every index: the same in every frame, above 0, and not worse when all
       const Eigen::Matrix3d c = random_compliance(generator), tool = random_rotation(generator),
                             turn = random_rotation(generator);
       const Eigen::Vector3d force = 500 * random_vector(generator);
-      const double score = index.score(c, tool, force);
+      const ForceLoad load = load_of(index, force);
+      const double score = index.score(c, tool, load);
       CHECK(score > 0);
       // Rounding in a product of three matrices and in an eigenvalue.
-      CHECK(index.score(turn * c * turn.transpose(), turn * tool, turn * force) ==
+      CHECK(index.score(turn * c * turn.transpose(), turn * tool, turned(load, turn)) ==
             Approx(score).epsilon(1e-13));
-      const double stiffer = index.score(c / 2, tool, force);
+      const double stiffer = index.score(c / 2, tool, load);
       CHECK((index.larger_is_better ? stiffer >= score : stiffer <= score));
     }
   }
@@ -72,7 +88,7 @@ TEST_CASE("every index: four arms side by side score as one by one") {
     INFO("index " << index.name);
     for (int n = 0; n < 50; ++n) {
       const Eigen::Matrix3d tool = random_rotation(generator);
-      const Eigen::Vector3d force = 500 * random_vector(generator);
+      const ForceLoad force = load_of(index, 500 * random_vector(generator));
       double entries[6][kArms], scores[kArms];
       Eigen::Matrix3d compliance[kArms];
       for (int arm = 0; arm < kArms; ++arm) {
@@ -92,23 +108,25 @@ TEST_CASE("every index: four arms side by side score as one by one") {
 TEST_CASE("every index tells truly whether it feels the tool's turn, the tool's axes, a force and a ridge") {
   std::mt19937_64 generator(71);
   const Eigen::Matrix3d c = random_compliance(generator), tool = random_rotation(generator);
-  const Eigen::Matrix3d turned = tool * Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()).matrix();
+  const Eigen::Matrix3d turned_tool = tool * Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()).matrix();
   const Eigen::Vector3d force(300, -200, 100), other(-100, 50, 400);
   for (const StiffnessIndex& index : stiffness_indices()) {
     INFO("index " << index.name);
-    const double score = index.score(c, tool, force);
+    const double score = index.score(c, tool, load_of(index, force));
     // A turn of 0.7 rad or another force changes what it changes by far more than rounding.
-    CHECK((std::abs(index.score(c, turned, force) / score - 1) > 1e-6) == index.feels_tool_turn);
-    CHECK((std::abs(index.score(c, tool, other) / score - 1) > 1e-6) == index.needs_force);
+    CHECK((std::abs(index.score(c, turned_tool, load_of(index, force)) / score - 1) > 1e-6) ==
+          index.feels_tool_turn);
+    CHECK((std::abs(index.score(c, tool, load_of(index, other)) / score - 1) > 1e-6) == index.needs_force);
     for (int i = 0; i < 3; ++i) {
       const Eigen::Matrix3d rigid =
           Eigen::Matrix3d::Identity() - Eigen::Vector3d::Unit(i) * Eigen::RowVector3d::Unit(i);
-      CHECK(std::isinf(index.score(rigid, Eigen::Matrix3d::Identity(), force)) == index.along[i]);
+      CHECK(std::isinf(index.score(rigid, Eigen::Matrix3d::Identity(), load_of(index, force))) ==
+            index.along[i]);
     }
     // Two equal principal compliances that part one way or the other: on a ridge the slope jumps, so that the
     // second difference over the step does not vanish with it.
     const auto at = [&](double t) {
-      return index.score(Eigen::Vector3d(2 + t, 2 - t, 1).asDiagonal(), tool, force);
+      return index.score(Eigen::Vector3d(2 + t, 2 - t, 1).asDiagonal(), tool, load_of(index, force));
     };
     constexpr double kStep = 1e-4;
     const double jump = (at(kStep) + at(-kStep) - 2 * at(0)) / (kStep * at(0));
