@@ -26,9 +26,11 @@ void add_load_options(CLI::App& app, LoadOptions& options) {
                          [](double value) { return value > 0 && value < kLargestForce; });
 }
 
-robot::StiffnessTask stiffness_task(const LoadOptions& options, bool along_path) {
+robot::StiffnessTask stiffness_task(const LoadOptions& options, bool along_path, bool with_cut) {
   const bool varies = options.cone_deg || options.turning_n;
+  cli::refuse_if(with_cut && (options.force_n || varies), "--cut: expected without --force, which it gives");
   robot::StiffnessTask task;
+  if (with_cut) task.index = &robot::stiffness_index("surface");
   if (varies || (along_path && options.force_n)) task.index = &robot::stiffness_index("deflection");
   if (!options.index.empty()) task.index = &robot::stiffness_index(options.index);
   if (options.force_n) {
@@ -45,7 +47,9 @@ robot::StiffnessTask stiffness_task(const LoadOptions& options, bool along_path)
       std::string(options.cone_deg ? "--force-cone" : "--force-turning") + ": expected the index deflection");
   // What turns may be all that there is.
   if (options.turning_n && !task.force_n) task.force_n = Eigen::Vector3d::Zero();
-  cli::refuse_if(task.index->needs_force && !task.force_n,
+  cli::refuse_if(task.index->needs_cut && !with_cut,
+                 std::string("--cut: missing: expected a cut for the index ") + task.index->name);
+  cli::refuse_if(task.index->needs_force && !task.force_n && !with_cut,
                  std::string("--force: missing: expected a force for the index ") + task.index->name);
   cli::refuse_if(!options.frame.empty() && !options.force_n, "--force-frame: expected with --force only");
   cli::refuse_if(!along_path && options.frame == "feed", "--force-frame: feed: expected with --path only");

@@ -18,8 +18,9 @@ struct LoadOptions {
 
 void add_load_options(CLI::App& app, LoadOptions& options);
 
-/// The task that they make; `along_path`: a path, whose index is the deflection where there is a force.
-/// Throws WrongUsage.
-robot::StiffnessTask stiffness_task(const LoadOptions& options, bool along_path);
+/// The task that they make; `along_path`: a path, whose index is the deflection where there is a force;
+/// `with_cut`: a cut will give the force, and the index is what of the deflection shows on the wall. Throws
+/// WrongUsage.
+robot::StiffnessTask stiffness_task(const LoadOptions& options, bool along_path, bool with_cut);
 
 }  // namespace stablecut

@@ -11,6 +11,7 @@
 #include "cli/exit_status.h"
 #include "cli/progress_bar.h"
 #include "cli/tool.h"
+#include "cut_options.h"
 #include "document/kinds/joint_stiffness_json.h"
 #include "document/kinds/pose_json.h"
 #include "document/kinds/pose_list_json.h"
@@ -61,6 +62,8 @@ class BestPose : public cli::Tool {
                            "Direction of the tool axis, base frame (default: 0,0,-1)");
     cli::begin_group(app, "Stiffness");
     add_load_options(app, load_);
+    add_file_option(app, "--cut", cut_.path, "A cut document, whose forces act instead of --force");
+    add_cut_options(app, cut_);
     cli::begin_group(app, "Search");
     add_margin_options(app, where_);
     add_keep_out_options(app, keep_out_);
@@ -80,6 +83,8 @@ class BestPose : public cli::Tool {
     add_file_option(app, "--path", along_.path, "Instead of a plane, the motion along a tool path");
     add_path_options(app, along_);
     add_file_option(app, "--joints", along_.joints_csv, "Also write the joint angles along the path as CSV");
+    add_file_option(app, "--offsets", along_.offsets_csv,
+                    "Also write the points that cancel the mean deflection under --cut as CSV");
   }
 
   void run() override {
@@ -90,7 +95,8 @@ class BestPose : public cli::Tool {
     cli::refuse_if(!evaluate && !along_.given() && !where_.has_plane(),
                    "--height: missing: expected the height of the plane, mm");
     document::PoseDocument document;
-    document.task = stiffness_task(load_, along_.given());
+    check_cut_options(cut_, along_.given());
+    document.task = stiffness_task(load_, along_.given(), cut_.given());
     if (!along_.given()) document.plane = search_plane(where_);
     const document::Input robot_input = read_input(robot_path_, cli::InputForm::kJson);
     robot::Robot robot = document::robot_from_json(robot_input.document, robot_input.source);
@@ -102,6 +108,7 @@ class BestPose : public cli::Tool {
     document.errors = joints.errors;
     if (const std::string text = rigid_springs_text(joints, robot); !text.empty())
       warn(input.source.name + ": " + text);
+    if (cut_.given()) take_cut(read_input(cut_.path, cli::InputForm::kJson), cut_, document.task);
     if (evaluate) return score_poses(robot, elasticity, document);
     if (const auto bad = robot::unsupported_geometry(robot)) {
       throw unsupported_robot(*bad, robot, robot_input.source);
@@ -119,6 +126,7 @@ class BestPose : public cli::Tool {
     const std::string stray = along_.without_path();
     cli::refuse_if(!along_.given() && !stray.empty(), stray + ": expected with --path only");
     if (!along_.given()) return;
+    cli::refuse_if(!along_.offsets_csv.empty() && !cut_.given(), "--offsets: expected with --cut only");
     cli::refuse_if(!evaluate_path_.empty(), "--path: expected a path or --evaluate");
     cli::refuse_if(!map_path_.empty(), "--map: expected a search in a plane, not --path");
     cli::refuse_if(where_.height_mm || where_.x_mm || where_.y_mm || where_.tool_axis,
@@ -130,7 +138,7 @@ class BestPose : public cli::Tool {
   void drive_path(const robot::Robot& robot, const robot::Elasticity& elasticity,
                   const document::PoseDocument& document) {
     const document::Input input = read_input(along_.path, cli::InputForm::kByContent);
-    const document::ToolPathDocument path = read_path(input, along_, where_);
+    document::ToolPathDocument path = read_path(input, along_, where_);
     robot::PathTask task =
         path_task(path.path, along_, where_, robot, elasticity, document.task, load_.frame == "feed");
     document::Json placement;
@@ -142,7 +150,8 @@ class BestPose : public cli::Tool {
     PathResult result;
     {
       cli::ProgressBar bar("best-pose: path", !quiet());
-      result = solve_path(robot, task, document.errors, threads(), [&](double share) { bar.show(share); });
+      result = solve_path(robot, task, path.frame, document.errors, threads(),
+                          [&](double share) { bar.show(share); });
     }
     if (!result.undone.empty()) {
       if (!along_.partial || result.document.is_null()) throw NoAnswer(along_.path + ": " + result.undone);
@@ -151,6 +160,7 @@ class BestPose : public cli::Tool {
     if (!placement.is_null()) result.document["placement"] = std::move(placement);
     write_document(main_output(), std::move(result.document));
     if (!along_.joints_csv.empty()) write_text(along_.joints_csv, std::move(result.joints_csv));
+    if (!along_.offsets_csv.empty()) write_text(along_.offsets_csv, std::move(result.offsets_csv));
   }
 
   void search(const robot::Robot& robot, const robot::Elasticity& elasticity,
@@ -195,6 +205,7 @@ class BestPose : public cli::Tool {
     document.names = list.names;
     for (const robot::JointAngles& angles : list.poses) {
       const std::string place = input.source.name + ": /poses/" + std::to_string(document.evaluated.size());
+      check_feed(document.task, robot::robot_pose(robot, angles).tool.linear().col(2), " of " + place);
       document.evaluated.push_back(
           robot::report_pose(robot, angles, document.task, elasticity, document.errors));
       const robot::PoseReport& report = document.evaluated.back();
@@ -214,6 +225,7 @@ class BestPose : public cli::Tool {
   SearchOptions where_;
   PathOptions along_;
   LoadOptions load_;
+  CutOptions cut_;
   KeepOutOptions keep_out_;
   std::optional<int> alternatives_;
   std::vector<AssumedStiffness> assumed_;

@@ -10,6 +10,7 @@
 #include "cli/tool.h"
 #include "document/measured/tool_path_text.h"
 #include "path_words.h"
+#include "robot/path_offset.h"
 
 namespace stablecut {
 namespace {
@@ -73,6 +74,7 @@ std::string PathOptions::without_path() const {
   if (!axis.empty()) return "--path-axis";
   if (!joint_speed.empty()) return "--joint-speed";
   if (!joints_csv.empty()) return "--joints";
+  if (!offsets_csv.empty()) return "--offsets";
   if (speed_mm_per_s) return "--path-speed";
   if (redundancy_rate_deg_per_mm) return "--redundancy-rate";
   if (!place.empty()) return "--place";
@@ -137,25 +139,26 @@ robot::PathTask path_task(robot::ToolPath path, const PathOptions& options, cons
   return task;
 }
 
-document::Json place_path(const robot::Robot& robot, robot::PathTask& task,
-                          const Eigen::Isometry3d& workpiece, const std::string& place, int threads,
-                          const Progress& progress) {
+document::Json place_path(const robot::Robot& robot, robot::PathTask& task, Eigen::Isometry3d& workpiece,
+                          const std::string& place, int threads, const Progress& progress) {
   const robot::PlaceSearch search =
       robot::search_places(robot, task, place_grid(place), workpiece, threads, progress);
   if (!search.best) throw NoAnswer(no_place_text(search));
   const robot::Placement& best = search.map[*search.best].at;
   task.path = robot::placed(task.path, best, workpiece);
-  return document::placement_to_json(search, *task.stiffness.index, best.frame(workpiece));
+  workpiece = best.frame(workpiece);
+  return document::placement_to_json(search, *task.stiffness.index, workpiece);
 }
 
 PathResult solve_path(const robot::Robot& robot, const robot::PathTask& task,
-                      const robot::ElasticityErrors& errors, int threads, const Progress& progress) {
+                      const Eigen::Isometry3d& workpiece, const robot::ElasticityErrors& errors, int threads,
+                      const Progress& progress) {
   const robot::PathModel model(robot, task);
   const robot::PathSearch search = robot::search_path(model, threads, progress);
   PathResult result;
   result.undone = obstacles_text(search.obstacles, robot, task);
   if (search.parts.empty()) return result;
-  document::PosePathDocument document{task, search, {}, 0, {}};
+  document::PosePathDocument document{task, search, {}, 0, {}, {}};
   std::vector<std::pair<std::size_t, const robot::PathPose*>> poses;
   double worst = 0;
   for (std::size_t p = 0; p < search.parts.size(); ++p) {
@@ -169,13 +172,20 @@ PathResult solve_path(const robot::Robot& robot, const robot::PathTask& task,
   }
   document.worst = robot::worst_point(model, search.parts[document.worst_part]);
   document.reports.resize(poses.size());
+  if (task.stiffness.cut) document.offsets.resize(poses.size());
+  const robot::InverseKinematics inverse(robot);
   parallel_for(poses.size(), threads, [&](std::size_t i) {
     const auto& [point, pose] = poses[i];
-    document.reports[i] = robot::report_pose(robot, pose->angles, point_task(task, model.frames(), point),
-                                             task.elasticity, errors);
+    const robot::StiffnessTask at = point_task(task, model.frames(), point);
+    document.reports[i] = robot::report_pose(robot, pose->angles, at, task.elasticity, errors);
+    if (at.cut) {
+      document.offsets[i] =
+          robot::cancelling_offset(robot, inverse, document.reports[i], at, task.elasticity);
+    }
   });
   result.document = document::pose_path_to_json(document, robot);
   result.joints_csv = document::joint_angles_csv(search, robot);
+  if (task.stiffness.cut) result.offsets_csv = document::offsets_csv(document, workpiece);
   return result;
 }
 

@@ -15,7 +15,7 @@ namespace stablecut {
 
 /// As the options give it.
 struct PathOptions {
-  std::string path, objective, axis, joint_speed, joints_csv, place;
+  std::string path, objective, axis, joint_speed, joints_csv, offsets_csv, place;
   std::optional<double> speed_mm_per_s, redundancy_rate_deg_per_mm;
   bool partial = false;
 
@@ -24,7 +24,7 @@ struct PathOptions {
   std::string without_path() const;
 };
 
-/// Declares --path and what belongs to it, --joints (a file) apart.
+/// Declares --path and what belongs to it, --joints and --offsets (files) apart.
 void add_path_options(CLI::App& app, PathOptions& options);
 
 /// The path in the base frame, and its workpiece's. Throws DataError and WrongUsage.
@@ -36,20 +36,21 @@ robot::PathTask path_task(robot::ToolPath path, const PathOptions& options, cons
                           const robot::Robot& robot, const robot::Elasticity& elasticity,
                           const robot::StiffnessTask& stiffness, bool feed_frame);
 
-/// --place: moves the task's path to the best place of its workpiece, whose frame this is, and gives the
+/// --place: moves the task's path to the best place of its workpiece, and its frame with it, and gives the
 /// field `placement` of the document. Throws WrongUsage, and NoAnswer where no place lets it be driven.
-document::Json place_path(const robot::Robot& robot, robot::PathTask& task,
-                          const Eigen::Isometry3d& workpiece, const std::string& place, int threads,
-                          const Progress& progress);
+document::Json place_path(const robot::Robot& robot, robot::PathTask& task, Eigen::Isometry3d& workpiece,
+                          const std::string& place, int threads, const Progress& progress);
 
 /// What the search of a path gives: the documents, and what it could not do in words, empty where all is
 /// done.
 struct PathResult {
   document::Json document;  ///< null where no part of the path is driven
   std::string joints_csv;
+  std::string offsets_csv;  ///< with a cut
   std::string undone;
 };
 PathResult solve_path(const robot::Robot& robot, const robot::PathTask& task,
-                      const robot::ElasticityErrors& errors, int threads, const Progress& progress);
+                      const Eigen::Isometry3d& workpiece, const robot::ElasticityErrors& errors, int threads,
+                      const Progress& progress);
 
 }  // namespace stablecut

@@ -5,6 +5,7 @@
 
 #include "base/units.h"
 #include "cli/exit_status.h"
+#include "cut_options.h"
 
 namespace stablecut {
 namespace {
@@ -97,6 +98,7 @@ robot::PoseTask search_task(const SearchOptions& options, const robot::Plane& pl
   task.tool_axis = direction(options.tool_axis, task.tool_axis, "--tool-axis");
   task.stiffness = stiffness;
   task.elasticity = elasticity;
+  check_feed(stiffness, task.tool_axis, "");
   task.limit_margin_rad = limit_margin(options);
   task.singularity_margin = singularity_margin(options, false);
   const auto reach = robot::plane_reach(robot, task.plane, task.tool_axis);

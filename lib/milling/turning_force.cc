@@ -42,10 +42,12 @@ class Turning {
 
   // Of the teeth that touch a wall at this angle of their tips: they enter there, or leave.
   Eigen::Matrix3Xd while_leaving(double angle_rad, bool entering) const {
-    const int steps = straight() ? 0 : static_cast<int>(std::ceil(std::abs(lag()) / kTurnStep));
+    // A long edge has all that a period has.
+    const double along = std::clamp(lag(), -cycle_.period_rad, cycle_.period_rad);
+    const int steps = straight() ? 0 : static_cast<int>(std::ceil(std::abs(along) / kTurnStep));
     std::vector<Eigen::Vector3d> forces;
     for (int k = 0; k <= steps; ++k) {
-      const double turn = angle_rad + (steps > 0 ? lag() * k / steps : 0);
+      const double turn = angle_rad + (steps > 0 ? along * k / steps : 0);
       forces.push_back(at(turn, turn + (entering ? 0.5 : -0.5) * room(turn, entering)));
     }
     return matrix_of(forces);

@@ -21,7 +21,8 @@ struct TurningForce {
   /// -Y.
   struct Wall {
     double angle_rad;
-    /// While places along a tooth's edge, from the tip up, touch the wall: the tooth itself is in cut. None
+    /// While places along a tooth's edge, from the tip up, touch the wall: the tooth itself is in cut. Of an
+    /// edge that lags by more than a period, a period's. None
     /// where teeth differ, as the one that cuts deepest leaves the wall then.
     Eigen::Matrix3Xd leaving_n;
   };

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/units.h"
+#include "document/kinds/cut_deflection_json.h"
 #include "document/kinds/joints_json.h"
 
 namespace stablecut::document {
@@ -41,6 +42,7 @@ Json to_json(const robot::PoseReport& report, const robot::StiffnessTask& task) 
     pose["displacement_um"] = to_json(*report.deflection_m * 1e6);
   }
   if (report.worst_force_n) pose["worst_force_n"] = to_json(*report.worst_force_n);
+  if (report.cut) pose["cut"] = cut_deflection_to_json(*report.cut);
   pose["limit_margin_deg"] = document_degrees(report.limit_margin_rad);
   pose["joint_margin_deg"] = joint_angles_to_json(report.joint_margin_rad);
   pose["singularity_margin"] = report.singularity_margin;
@@ -142,6 +144,7 @@ Json pose_report_to_json(const robot::PoseReport& report, const robot::Stiffness
 
 Json pose_to_json(const PoseDocument& document, const robot::Robot& robot) {
   Json result = {{"format", "stablecut/pose/1"}, {"index", index_to_json(*document.task.index)}};
+  if (document.task.cut) result["cut"] = cut_load_to_json(*document.task.cut);
   add_plane(result, document.plane);
   const auto one = [&](const robot::PoseReport& report, const robot::FoundPose& found) {
     Json pose = to_json(report, document.task);
@@ -199,9 +202,11 @@ Json evaluation_to_json(const PoseDocument& document) {
     }
     evaluated.push_back(std::move(pose));
   }
-  return {{"format", "stablecut/pose/1"},
-          {"index", index_to_json(*document.task.index)},
-          {"evaluated", std::move(evaluated)}};
+  Json result = {{"format", "stablecut/pose/1"},
+                 {"index", index_to_json(*document.task.index)},
+                 {"evaluated", std::move(evaluated)}};
+  if (document.task.cut) result["cut"] = cut_load_to_json(*document.task.cut);
+  return result;
 }
 
 Eigen::Matrix3d tool_compliance(const Json& document, const Source& source) {

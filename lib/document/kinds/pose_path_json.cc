@@ -4,6 +4,7 @@
 
 #include "base/number_text.h"
 #include "base/units.h"
+#include "document/kinds/cut_deflection_json.h"
 #include "document/kinds/frame_json.h"
 #include "document/kinds/joints_json.h"
 #include "document/kinds/pose_json.h"
@@ -92,6 +93,12 @@ const char* outcome_word(robot::PlacedPath::Outcome outcome) {
   return "no-motion";
 }
 
+void add_offset(Json& to, const Eigen::Vector3d& offset, const robot::PoseReport& report) {
+  to["offset_mm"] = Json::array();
+  for (const double part : offset) to["offset_mm"].push_back(mm_from_metres(part));
+  to["offset_normal_mm"] = mm_from_metres(offset.dot(report.cut->frame.col(1)));
+}
+
 Json place_to_json(const robot::Placement& at) {
   return {{"x_mm", mm_from_metres(at.shift.x())},
           {"y_mm", mm_from_metres(at.shift.y())},
@@ -132,6 +139,7 @@ Json pose_path_to_json(const PosePathDocument& document, const robot::Robot& rob
       Json json = {{"point", part.first + i}, {"time_s", pose.time}};
       json.update(
           pose_report_to_json(document.reports[at], point_task(document.task, frames, part.first + i)));
+      if (!document.offsets.empty()) add_offset(json, document.offsets[at], document.reports[at]);
       json["branch"] = part.branch;
       json["turn_deg"] = document_degrees(pose.turn + frames.redundancy[0]);
       json["joint_speed_deg_per_s"] = joint_angles_to_json(pose.speed);
@@ -143,6 +151,7 @@ Json pose_path_to_json(const PosePathDocument& document, const robot::Robot& rob
                  {"objective", document.task.mean_objective ? "mean" : "worst"},
                  {"worst", worst_to_json(document, robot)},
                  {"parts", std::move(parts)}};
+  if (const auto& cut = document.task.stiffness.cut) result["cut"] = cut_load_to_json(*cut);
   Json obstacles = Json::array();
   for (const robot::PathObstacle& obstacle : document.search.obstacles)
     obstacles.push_back(obstacle_to_json(obstacle, robot));
@@ -167,6 +176,26 @@ std::string joint_angles_csv(const robot::PathSearch& search, const robot::Robot
       text += std::to_string(part.first + i) + "," + printed("%.6f", part.poses[i].time);
       for (const double angle : part.poses[i].angles)
         text += "," + printed("%.9f", degrees_from_radians(angle));
+      text += "\n";
+    }
+  }
+  return text;
+}
+
+std::string offsets_csv(const PosePathDocument& document, const Eigen::Isometry3d& workpiece) {
+  std::string text =
+      "point,x_mm,y_mm,z_mm,base_x_mm,base_y_mm,base_z_mm,offset_x_mm,offset_y_mm,offset_z_mm,"
+      "offset_feed_mm,offset_normal_mm,offset_axial_mm\n";
+  const Eigen::Isometry3d into_workpiece = workpiece.inverse();
+  std::size_t at = 0;
+  for (const robot::PathPart& part : document.search.parts) {
+    for (std::size_t i = 0; i < part.poses.size(); ++i, ++at) {
+      const Eigen::Vector3d offset = document.offsets[at];
+      const Eigen::Vector3d base = document.task.path[part.first + i].position + offset;
+      const Eigen::Vector3d in_cut = document.reports[at].cut->frame.transpose() * offset;
+      text += std::to_string(part.first + i);
+      for (const Eigen::Vector3d& v : {Eigen::Vector3d(into_workpiece * base), base, offset, in_cut})
+        for (const double component : v) text += "," + printed("%.6f", mm_from_metres(component));
       text += "\n";
     }
   }

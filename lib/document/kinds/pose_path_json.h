@@ -17,6 +17,8 @@ struct PosePathDocument {
   std::vector<robot::PoseReport> reports;  ///< of all poses, part after part
   std::size_t worst_part = 0;              ///< the part that holds the worst point
   robot::WorstPoint worst;
+  /// Of all poses, m, base frame: cancelling_offset(). Empty without a cut.
+  std::vector<Eigen::Vector3d> offsets;
 };
 
 /// Field `placement`: the best place, the workpiece's frame (base frame) there, and the map. `search.best`
@@ -29,5 +31,9 @@ Json pose_path_to_json(const PosePathDocument& document, const robot::Robot& rob
 
 /// Columns `time_s`, the point's number, the joints by name in degrees; a header, and a line for each pose.
 std::string joint_angles_csv(const robot::PathSearch& search, const robot::Robot& robot);
+
+/// Where to send the tool point, in the workpiece's frame and in the base frame, and by how much that is off
+/// the path in the base frame; mm. A header, and a line for each pose.
+std::string offsets_csv(const PosePathDocument& document, const Eigen::Isometry3d& workpiece);
 
 }  // namespace stablecut::document
