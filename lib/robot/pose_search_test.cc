@@ -33,13 +33,6 @@ void check_pose(const Robot& robot, const PoseTask& task, const FoundPose& found
         Approx(found.score).epsilon(1e-10));
 }
 
-void with_cut(StiffnessTask& task, std::mt19937_64& generator) {
-  task.cut = std::make_shared<CutLoad>(random_cut(generator));
-  task.feed = Eigen::Vector3d(uniform(generator, -1, 1), uniform(generator, -1, 1), 0.2);
-  task.force_n.reset();
-  task.force_in_tool = false;
-}
-
 }  // namespace
 
 TEST_CASE("tool-down optima of the KR360, to 0.1 %, on limits and inside") {

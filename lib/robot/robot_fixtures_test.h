@@ -88,6 +88,14 @@ inline CutLoad random_cut(std::mt19937_64& generator) {
   return cut;
 }
 
+/// Its forces instead of any other, with a feed across a tool axis that is near the vertical.
+inline void with_cut(StiffnessTask& task, std::mt19937_64& generator) {
+  task.cut = std::make_shared<CutLoad>(random_cut(generator));
+  task.feed = Eigen::Vector3d(uniform(generator, -1, 1), uniform(generator, -1, 1), 0.2);
+  task.force_n.reset();
+  task.force_in_tool = false;
+}
+
 inline Eigen::Isometry3d random_frame(std::mt19937_64& generator, double size_m) {
   const auto normal = [&] { return numerics::unit_normal(generator); };
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
