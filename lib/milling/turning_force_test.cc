@@ -1,5 +1,6 @@
 #include "milling/turning_force.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -92,6 +93,7 @@ TEST_CASE("force at the walls: of the tooth that touches them, with what the oth
     const Cutter cutter = random_cutter(generator, helical);
     const double depth = numerics::uniform(generator, 0.5e-3, 6e-3);
     const TurningForce force = turning_force(cutter, kLoad, depth);
+    const double period = kTwoPi / cutter.teeth;
     REQUIRE(force.walls.size() == wall_angles(cutter).size());
     for (const TurningForce::Wall& wall : force.walls) {
       ++walls;
@@ -99,10 +101,12 @@ TEST_CASE("force at the walls: of the tooth that touches them, with what the oth
       CHECK((wall.leaving_n.cols() > 1) == helical);
       const double inside = wall.angle_rad == 0 ? 1e-7 : -1e-7;
       const double size = force.turning_n.colwise().norm().maxCoeff();
+      // An edge that lags by more than a period sees all of it in one.
+      const double along = std::clamp(cutter.lag_rad_per_m * depth, -period, period);
       const int last = static_cast<int>(wall.leaving_n.cols()) - 1;
       INFO("case " << n << ", wall " << wall.angle_rad);
       for (int k = 0; k <= last; ++k) {
-        const double lag = helical ? cutter.lag_rad_per_m * depth * k / last : 0;
+        const double lag = helical ? along * k / last : 0;
         const Eigen::Vector3d plain = sliced_force(cutter, kLoad, depth, wall.angle_rad + lag + inside);
         CHECK((wall.leaving_n.col(k) - plain).norm() < (helical ? 1e-2 : 1e-6) * size);
       }
