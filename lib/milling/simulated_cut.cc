@@ -38,6 +38,7 @@ SimulatedCut::SimulatedCut(const TipStructure& structure, const Cutter& cutter, 
       load_(load),
       grid_(simulation_grid(cutter, depth_m, steps)),
       turn_per_s_(kTwoPi * revolutions_per_s),
+      feed_per_revolution_m_(load.feed_per_tooth_m * cutter.teeth * (1 + kGrazing)),
       rate_(structure.lambda) {
   const Eigen::Matrix2d feed = Eigen::Rotation2Dd(cutter.feed_angle_rad).toRotationMatrix();
   const Eigen::MatrixXd into_cut = feed.transpose()(Eigen::all, structure.axes);
@@ -60,7 +61,18 @@ SimulatedCut::SimulatedCut(const TipStructure& structure, const Cutter& cutter, 
       jump = jump || grid_.touches[t].before != grid_.touches[t].after;
     jumps_.push_back(jump);
   }
-  if (load_.feed_per_tooth_m > 0) roll_rigid();
+  if (!(load_.feed_per_tooth_m > 0)) return;
+  // In the first revolution every tooth passes everywhere; from the second on the chips repeat.
+  const int revolution = cutter_.teeth / grid_.passes;
+  cycle_ = load_.runout_m.empty() ? 1 : revolution;
+  grazing_m_ = kGrazing * load_.feed_per_tooth_m;
+  rigid_chip_.assign(grid_.touches.size() * cycle_, 0);
+  rigid_leaves_.assign(grid_.surface_at.size() * cutter_.teeth * cycle_, 1);
+  rest_ = empty_state();
+  for (double& out : rest_.surface) out = kNoSurface;
+  roll_rigid(rest_, 2 * revolution);
+  rest_later_ = rest_;
+  roll_rigid(rest_later_, cycle_);
 }
 
 // The modes under a force that changes linearly over the step: exact.
@@ -84,15 +96,18 @@ SimulatedCut::StepOperator SimulatedCut::operator_of(double seconds) const {
 template <SimulatedCut::Kind kKind>
 double SimulatedCut::chip_of(const State& state, const SimulationTouch& touch, long period,
                              const Eigen::Vector2d& tip) const {
-  const double* surface = state.surface.data() + touch.surface;
-  double chip = touch.cosine * tip.y();
-  if constexpr (kKind == Kind::kReal) {
-    chip += touch.sine * (tip.x() + travel(period, touch.node));
+  double chip = touch.sine * tip.x() + touch.cosine * tip.y();
+  if constexpr (kKind != Kind::kDeviation) {
+    const double now = travel(period, touch.node);
+    chip += touch.sine * now;
     if (!load_.runout_m.empty()) chip += load_.runout_m[tooth_of(touch, period)];
-  } else {
-    chip += touch.sine * tip.x();
+    for (int i = 0; i < 4; ++i) {
+      if (touch.weight[i] != 0) chip += touch.weight[i] * relief(now, touch, touch.surface + i, state);
+    }
   }
-  for (int i = 0; i < 4; ++i) chip -= touch.weight[i] * surface[i];
+  for (int i = 0; i < 4; ++i) {
+    if (touch.weight[i] != 0) chip -= touch.weight[i] * state.surface[touch.surface + i];
+  }
   return chip;
 }
 
@@ -112,16 +127,20 @@ SimulatedCut::NodeForce SimulatedCut::force_at(const State& state, long period, 
     if (!(before ? touch.before : touch.after)) continue;
     const double chip = chip_of<kKind>(state, touch, period, tip);
     const double s = touch.sine, c = touch.cosine, depth = grid_.depth_m[touch.disc];
-    double along = kt * chip, across = kr * chip;
-    if constexpr (kKind == Kind::kDeviation) {
-      if (!rigid_chip_.empty() && rigid_chip_[turn + t] < -grazing_m_) continue;
-    } else {
+    if constexpr (kKind == Kind::kReal) {
+      const bool touches = chip + touch.within * load_.feed_per_tooth_m > 0;
       if (contact) {
         const double expected = std::max(rigid_chip_[turn + t], 0.0);
         contact->expected_m += expected;
-        if (chip <= 0) contact->missed_m += expected;
+        if (!touches) contact->missed_m += expected;
       }
-      if (chip <= 0) continue;
+      if (!touches) continue;
+    } else if (!rigid_chip_.empty() &&
+               rigid_chip_[turn + t] + touch.within * load_.feed_per_tooth_m < -grazing_m_) {
+      continue;
+    }
+    double along = kt * chip, across = kr * chip;
+    if constexpr (kKind != Kind::kDeviation) {
       along += load_.kte_n_per_m;
       across += load_.kre_n_per_m;
       sum.axial += depth * (load_.ka_n_per_m2 * chip + load_.kae_n_per_m);
@@ -150,8 +169,9 @@ void SimulatedCut::leave_surface(State& state, int node, const Eigen::Vector2d& 
     const SimulationTouch& touch = grid_.touches[t];
     const int tooth = tooth_of(touch, state.period);
     double out = touch.sine * tip.x() + touch.cosine * tip.y();
-    if constexpr (kKind == Kind::kReal) {
-      out += touch.sine * travel(state.period, node);
+    const double now = kKind == Kind::kDeviation ? 0 : travel(state.period, node);
+    if constexpr (kKind != Kind::kDeviation) {
+      out += touch.sine * now;
       if (!load_.runout_m.empty()) out += load_.runout_m[tooth];
     }
     double& one_back = state.one_back[tooth * discs + touch.disc];
@@ -166,10 +186,18 @@ void SimulatedCut::leave_surface(State& state, int node, const Eigen::Vector2d& 
     one_back = out;
     for (int i = touch.leave_from; i < touch.leave_to; ++i) {
       const std::size_t place = turn + tooth * numbers + i;
-      const bool farther = kKind == Kind::kDeviation ? rigid_leaves_.empty() || rigid_leaves_[place] != 0
-                                                     : passing[i] > state.surface[i];
-      if (leaves) (*leaves)[place] = passing[i] >= state.surface[i] - grazing_m_;
-      if (farther) state.surface[i] = passing[i];
+      if constexpr (kKind != Kind::kReal) {
+        if (!rigid_leaves_.empty() && rigid_leaves_[place] == 0) continue;
+        state.surface[i] = passing[i];
+        state.travel[i] = now;
+      } else {
+        const double kept = state.surface[i] - relief(now, touch, i, state) -
+                            grid_.surface_within[i] * load_.feed_per_tooth_m;
+        if (leaves) (*leaves)[place] = passing[i] >= kept - grazing_m_;
+        if (!(passing[i] > kept)) continue;
+        state.surface[i] = passing[i];
+        state.travel[i] = now;
+      }
     }
   }
 }
@@ -177,29 +205,31 @@ void SimulatedCut::leave_surface(State& state, int node, const Eigen::Vector2d& 
 template <SimulatedCut::Kind kKind>
 void SimulatedCut::advance_as(State& state, Contact* contact, const Visit* visit) const {
   Eigen::ArrayXcd& modes = state.modes;
-  Eigen::Vector2d tip = tip_of(modes), force = Eigen::Vector2d::Zero();
+  Eigen::Vector2d tip = tip_of(modes);
+  NodeForce start;
   const Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
   const bool damped = flank_n_s_per_m2_ > 0;
   for (int i = 0; i < grid_.steps(); ++i) {
     if (jumps_[i]) {
       const Eigen::Vector2d speed = damped ? speed_of(modes) : Eigen::Vector2d::Zero();
-      const NodeForce at = force_at<kKind>(state, state.period, i, false, tip, speed, nullptr);
+      start = force_at<kKind>(state, state.period, i, false, tip, speed, nullptr);
       // A force changes the velocity of modes that do not belong to a mass at once.
-      force = damped ? Eigen::Vector2d((one - at.by_speed * jump_).inverse() * at.force) : at.force;
+      if (damped) start.force = ((one - start.by_speed * jump_).inverse() * start.force).eval();
     }
     leave_surface<kKind>(state, i, tip, nullptr);
     const StepOperator& op = operators_[operator_of_step_[i]];
-    modes = op.flight * modes + (op.from_start * force).array();
+    modes = op.flight * modes + (op.from_start * start.force).array();
     const Eigen::Vector2d free_tip = tip_of(modes);
     const Eigen::Vector2d free_speed = damped ? speed_of(modes) : Eigen::Vector2d::Zero();
-    const NodeForce at = force_at<kKind>(state, state.period, i + 1, true, free_tip + op.moved * force,
-                                         free_speed + op.hastened * force, contact);
+    NodeForce end = force_at<kKind>(state, state.period, i + 1, true, free_tip + op.moved * start.force,
+                                    free_speed + op.hastened * start.force, contact);
     // One step of Newton: exact as long as no disc comes into contact or loses it.
-    const Eigen::Matrix2d change = at.by_tip * op.moved + at.by_speed * op.hastened;
-    force = (one - change).inverse() * (at.force - change * force);
-    modes += (op.to_end * force).array();
-    tip = free_tip + op.moved * force;
-    if (visit) (*visit)({state.period, i + 1, tip, {force.x(), force.y(), at.axial, at.along}});
+    const Eigen::Matrix2d change = end.by_tip * op.moved + end.by_speed * op.hastened;
+    end.force = ((one - change).inverse() * (end.force - change * start.force)).eval();
+    modes += (op.to_end * end.force).array();
+    tip = free_tip + op.moved * end.force;
+    if (visit) (*visit)({state.period, i + 1, tip, end.parts(), start.parts()});
+    start = end;
   }
   ++state.period;
 }
@@ -208,37 +238,32 @@ SimulatedCut::State SimulatedCut::empty_state() const {
   State state;
   state.modes = Eigen::ArrayXcd::Zero(rate_.size());
   state.surface.assign(grid_.surface_at.size(), 0);
+  state.travel.assign(grid_.surface_at.size(), 0);
   state.passing.assign(grid_.surface_at.size() * cutter_.teeth, 0);
   state.one_back.assign(grid_.depth_m.size() * cutter_.teeth, 0);
   state.two_back = state.one_back;
   return state;
 }
 
-// Two revolutions of a rigid tool: in the first every tooth passes everywhere, and the chips of the second
-// are remembered.
-void SimulatedCut::roll_rigid() {
-  const int revolution = cutter_.teeth / grid_.passes;
-  cycle_ = load_.runout_m.empty() ? 1 : revolution;
-  grazing_m_ = kGrazing * load_.feed_per_tooth_m;
-  rigid_chip_.assign(grid_.touches.size() * cycle_, 0);
-  rigid_leaves_.assign(grid_.surface_at.size() * cutter_.teeth * cycle_, 1);
-  rest_ = empty_state();
-  for (double& out : rest_.surface) out = kNoSurface;
+// Follows a rigid tool, and remembers its chips and what it leaves.
+void SimulatedCut::roll_rigid(State& state, int periods) {
   const Eigen::Vector2d still = Eigen::Vector2d::Zero();
-  while (rest_.period < 2 * revolution) {
-    const bool second = rest_.period >= revolution;
-    const std::size_t turn = static_cast<std::size_t>(rest_.period % cycle_) * grid_.touches.size();
+  for (int p = 0; p < periods; ++p, ++state.period) {
+    const std::size_t turn = static_cast<std::size_t>(state.period % cycle_) * grid_.touches.size();
     for (int i = 0; i < grid_.steps(); ++i) {
       for (int t = grid_.first_touch[i]; t < grid_.first_touch[i + 1]; ++t)
-        rigid_chip_[turn + t] = chip_of<Kind::kReal>(rest_, grid_.touches[t], rest_.period, still);
-      leave_surface<Kind::kReal>(rest_, i, still, second ? &rigid_leaves_ : nullptr);
+        rigid_chip_[turn + t] = chip_of<Kind::kReal>(state, grid_.touches[t], state.period, still);
+      leave_surface<Kind::kReal>(state, i, still, &rigid_leaves_);
     }
-    ++rest_.period;
   }
 }
 
 void SimulatedCut::advance(State& state, Contact& contact, const Visit& visit) const {
   advance_as<Kind::kReal>(state, &contact, &visit);
+}
+
+void SimulatedCut::advance_in_contact(State& state) const {
+  advance_as<Kind::kInContact>(state, nullptr, nullptr);
 }
 
 void SimulatedCut::advance_deviation(State& state) const {

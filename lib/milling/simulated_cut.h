@@ -16,9 +16,10 @@ namespace stablecut::milling {
 /// The end of a step, in the cut's frame.
 struct SimulatedNode {
   long period = 0;
-  int node = 0;                           ///< of the grid; the number of steps: node 0 of the next period
-  Eigen::Vector2d tip_m;                  ///< displacement along the feed and normal to it
-  ForceParts force = ForceParts::Zero();  ///< of the step that ends there, N
+  int node = 0;                            ///< of the grid; the number of steps: node 0 of the next period
+  Eigen::Vector2d tip_m;                   ///< displacement along the feed and normal to it
+  ForceParts force = ForceParts::Zero();   ///< where the step ends, N
+  ForceParts before = ForceParts::Zero();  ///< where it began
 };
 
 class SimulatedCut {
@@ -28,6 +29,7 @@ class SimulatedCut {
     Eigen::ArrayXcd modes;
     std::vector<double> surface;             ///< how far out the teeth have cut, m
     std::vector<double> passing;             ///< [teeth x surface] what each tooth leaves as it passes
+    std::vector<double> travel;              ///< of the axis along the feed when a number was cut
     std::vector<double> one_back, two_back;  ///< [teeth x discs] how far out each was at its nodes before
     long period = 0;
   };
@@ -45,9 +47,13 @@ class SimulatedCut {
   const Cutter& cutter() const { return cutter_; }
   /// Periods after which the contact of a rigid tool repeats.
   int cycle() const { return cycle_; }
+  int tooth_of(const SimulationTouch& touch, long period) const {
+    return static_cast<int>((touch.tooth + period * grid_.shift) % cutter_.teeth);
+  }
 
-  /// A tool at rest on the surface that a rigid one has left.
-  State at_rest() const { return rest_; }
+  /// A tool at rest on the surface that a rigid one has left, and the same a cycle later.
+  const State& at_rest() const { return rest_; }
+  const State& at_rest_later() const { return rest_later_; }
   /// Follows the cut for a period: a chip where a tooth is farther out than all before it, no contact
   /// elsewhere. `visit` is called at the end of every step.
   void advance(State& state, Contact& contact, const Visit& visit) const;
@@ -56,9 +62,11 @@ class SimulatedCut {
   /// those of a rigid tool are: a linear map.
   State no_deviation() const { return empty_state(); }
   void advance_deviation(State& state) const;
+  /// The motion itself as it would be if the teeth stayed in contact as those of a rigid tool: affine.
+  void advance_in_contact(State& state) const;
 
  private:
-  enum class Kind { kReal, kDeviation };
+  enum class Kind { kReal, kInContact, kDeviation };
   struct StepOperator {
     Eigen::ArrayXcd flight;                // [modes]
     Eigen::MatrixX2cd from_start, to_end;  // [modes x 2] of the force at the step's ends
@@ -69,6 +77,7 @@ class SimulatedCut {
     Eigen::Vector2d force = Eigen::Vector2d::Zero();
     Eigen::Matrix2d by_tip = Eigen::Matrix2d::Zero(), by_speed = Eigen::Matrix2d::Zero();
     double axial = 0, along = 0;
+    ForceParts parts() const { return {force.x(), force.y(), axial, along}; }
   };
 
   template <Kind kKind>
@@ -77,6 +86,14 @@ class SimulatedCut {
   template <Kind kKind>
   double chip_of(const State& state, const SimulationTouch& touch, long period,
                  const Eigen::Vector2d& tip) const;
+  // How much nearer a place lies that was cut longer than a revolution ago than its number says: circles
+  // whose centers lie apart along the feed.
+  double relief(double travel, const SimulationTouch& touch, int number, const State& state) const {
+    const double apart = travel - state.travel[number] - feed_per_revolution_m_;
+    return apart > 0 && cutter_.diameter_m > 0
+               ? apart * apart * touch.cosine * touch.cosine / cutter_.diameter_m
+               : 0;
+  }
   // `leaves`: where to remember what is left.
   template <Kind kKind>
   void leave_surface(State& state, int node, const Eigen::Vector2d& tip, std::vector<char>* leaves) const;
@@ -84,14 +101,11 @@ class SimulatedCut {
   void advance_as(State& state, Contact* contact, const Visit* visit) const;
 
   StepOperator operator_of(double seconds) const;
-  void roll_rigid();
+  void roll_rigid(State& state, int periods);
   State empty_state() const;
   double travel(long period, int node) const {
-    return load_.feed_per_tooth_m * cutter_.teeth / kTwoPi *
+    return feed_per_revolution_m_ / kTwoPi *
            (static_cast<double>(period) * grid_.period_rad + grid_.turn_rad[node]);
-  }
-  int tooth_of(const SimulationTouch& touch, long period) const {
-    return static_cast<int>((touch.tooth + period * grid_.shift) % cutter_.teeth);
   }
   Eigen::Vector2d tip_of(const Eigen::ArrayXcd& modes) const { return 2 * (shape_ * modes.matrix()).real(); }
   Eigen::Vector2d speed_of(const Eigen::ArrayXcd& modes) const {
@@ -101,7 +115,7 @@ class SimulatedCut {
   Cutter cutter_;
   CuttingLoad load_;
   SimulationGrid grid_;
-  double turn_per_s_;
+  double turn_per_s_, feed_per_revolution_m_;
   double flank_n_s_per_m2_ = 0;  // process damping, across the cut
   Eigen::ArrayXcd rate_;         // [modes] lambda
   Eigen::Matrix2Xcd shape_, left_;
@@ -109,7 +123,7 @@ class SimulatedCut {
   std::vector<StepOperator> operators_;
   std::vector<int> operator_of_step_;
   std::vector<bool> jumps_;  // [steps] whether what is in cut changes at the node
-  State rest_;
+  State rest_, rest_later_;
   // Of a rigid tool, for the periods after which its chips repeat: the chip of each touch, and whether each
   // tooth leaves its number of the surface [cycle x teeth x surface]. Empty without feed.
   int cycle_ = 1;

@@ -1,6 +1,7 @@
 #include "milling/simulated_growth.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -18,7 +19,7 @@ constexpr int kLeastSteps = 48, kMostSteps = 40000;  // of a pitch
 constexpr double kFirstDiscs = 4, kDiscsPerRadian = 0.6;
 constexpr double kSettledGrowth = 1e-3;  // change of the growth by twice the steps
 constexpr int kMostDoublings = 4;
-constexpr double kResidual = 1e-7;
+constexpr double kResidual = 1e-7, kPeriodic = 1e-9, kNothingLeft = 1e-14;
 constexpr int kMostVectors = 300, kVectorsAtOnce = 10;
 constexpr unsigned kSeed = 1;
 
@@ -66,48 +67,106 @@ class StateVector {
   double scale_m_;
 };
 
+// Arnoldi's method for the map of deviations over a cycle: after m steps the map of the basis is the basis
+// times `hessenberg`, [m + 1 x m] [Arnoldi1951].
+class Krylov {
+ public:
+  Krylov(const SimulatedCut& cut, const StateVector& form, const Eigen::VectorXd& start)
+      : cut_(cut), form_(form), state_(cut.no_deviation()), basis_{start.normalized()} {
+    most = std::min<int>(kMostVectors, static_cast<int>(start.size()));
+    hessenberg = Eigen::MatrixXd::Zero(most + 1, most);
+  }
+
+  // Whether more steps can be made.
+  bool step() {
+    const int m = steps++;
+    form_.put(basis_[m], state_);
+    state_.period = 0;
+    for (int period = 0; period < cut_.cycle(); ++period) cut_.advance_deviation(state_);
+    Eigen::VectorXd v = form_.of(state_);
+    const double size = v.norm();
+    for (int again = 0; again < 2; ++again) {
+      for (int i = 0; i <= m; ++i) {
+        const double share = basis_[i].dot(v);
+        hessenberg(i, m) += share;
+        v -= share * basis_[i];
+      }
+    }
+    hessenberg(m + 1, m) = v.norm();
+    whole = hessenberg(m + 1, m) <= kNothingLeft * size || steps == v.size();
+    if (whole || steps == most) return false;
+    basis_.push_back(v / hessenberg(m + 1, m));
+    return true;
+  }
+
+  Eigen::VectorXd vector(const Eigen::VectorXd& shares) const {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(basis_[0].size());
+    for (Eigen::Index i = 0; i < shares.size(); ++i) sum += shares[i] * basis_[i];
+    return sum;
+  }
+
+  int steps = 0, most = 0;
+  bool whole = false;  // the basis holds all that the start reaches
+  Eigen::MatrixXd hessenberg;
+
+ private:
+  const SimulatedCut& cut_;
+  const StateVector& form_;
+  SimulatedCut::State state_;
+  std::vector<Eigen::VectorXd> basis_;
+};
+
 }  // namespace
 
 SimulatedGrowth growth_of(const SimulatedCut& cut, double displacement_scale_m) {
   const StateVector form(cut, displacement_scale_m);
-  SimulatedCut::State state = cut.no_deviation();
-  Eigen::VectorXd v = form.of(state);
+  Eigen::VectorXd start = form.of(cut.no_deviation());
   std::mt19937_64 generator(kSeed);
-  for (double& value : v) value = numerics::uniform(generator, -1, 1);
-  const int most = std::min<int>(kMostVectors, static_cast<int>(v.size()));
-  std::vector<Eigen::VectorXd> basis = {v.normalized()};
-  Eigen::MatrixXd h = Eigen::MatrixXd::Zero(most + 1, most);
+  for (double& value : start) value = numerics::uniform(generator, -1, 1);
+  Krylov krylov(cut, form, start);
   SimulatedGrowth result;
   result.passes = cut.cycle() * cut.grid().passes;
-  for (int m = 0; m < most; ++m) {
-    form.put(basis[m], state);
-    state.period = 0;
-    for (int period = 0; period < cut.cycle(); ++period) cut.advance_deviation(state);
-    v = form.of(state);
-    const double size = v.norm();
-    for (int again = 0; again < 2; ++again) {
-      for (int i = 0; i <= m; ++i) {
-        const double share = basis[i].dot(v);
-        h(i, m) += share;
-        v -= share * basis[i];
-      }
-    }
-    h(m + 1, m) = v.norm();
-    const bool whole = m + 1 == most || h(m + 1, m) <= 1e-14 * size;
-    if (whole || (m + 1) % kVectorsAtOnce == 0) {
-      const Eigen::EigenSolver<Eigen::MatrixXd> solver(h.topLeftCorner(m + 1, m + 1));
-      Eigen::Index leading = 0;
-      const double radius = solver.eigenvalues().cwiseAbs().maxCoeff(&leading);
-      result.multiplier = solver.eigenvalues()[leading];
-      result.per_tooth = std::pow(radius, 1.0 / result.passes);
-      const Eigen::VectorXcd last = solver.eigenvectors().col(leading);
-      if (h(m + 1, m) * std::abs(last[m]) <= kResidual * radius * last.norm()) return result;
-      if (whole) break;
-    }
-    basis.push_back(v / h(m + 1, m));
+  for (bool more = true; more;) {
+    more = krylov.step();
+    const int m = krylov.steps;
+    if (more && m % kVectorsAtOnce != 0) continue;
+    const Eigen::EigenSolver<Eigen::MatrixXd> solver(krylov.hessenberg.topLeftCorner(m, m));
+    Eigen::Index leading = 0;
+    const double radius = solver.eigenvalues().cwiseAbs().maxCoeff(&leading);
+    result.multiplier = solver.eigenvalues()[leading];
+    result.per_tooth = std::pow(radius, 1.0 / result.passes);
+    const Eigen::VectorXcd vector = solver.eigenvectors().col(leading);
+    if (krylov.whole ||
+        krylov.hessenberg(m, m - 1) * std::abs(vector[m - 1]) <= kResidual * radius * vector.norm())
+      return result;
   }
-  if (most == v.size()) return result;
-  throw NoAnswer("the growth of the simulated deviations does not settle", Remedy::kModes);
+  throw NoAnswer("the growth of simulated deviations does not settle", Remedy::kModes);
+}
+
+SimulatedCut::State periodic_state(const SimulatedCut& cut, double displacement_scale_m) {
+  const StateVector form(cut, displacement_scale_m);
+  // A cycle maps a deviation d from the rigid tool's state to M d + b: the one sought is its own image.
+  SimulatedCut::State state = cut.at_rest();
+  for (int period = 0; period < cut.cycle(); ++period) cut.advance_in_contact(state);
+  const Eigen::VectorXd b = form.of(state) - form.of(cut.at_rest_later());
+  state = cut.at_rest();
+  if (b.isZero(0)) return state;
+  Krylov krylov(cut, form, b);
+  Eigen::VectorXd shares;
+  for (bool more = true; more;) {
+    more = krylov.step();
+    const int m = krylov.steps;
+    if (more && m % kVectorsAtOnce != 0) continue;
+    Eigen::MatrixXd left = -krylov.hessenberg.topLeftCorner(m + 1, m);
+    left.topRows(m) += Eigen::MatrixXd::Identity(m, m);
+    const Eigen::VectorXd right = b.norm() * Eigen::VectorXd::Unit(m + 1, 0);
+    shares = left.householderQr().solve(right);
+    if ((left * shares - right).norm() <= kPeriodic * b.norm()) break;
+  }
+  const long period = state.period;
+  form.put(form.of(state) + krylov.vector(shares), state);
+  state.period = period;
+  return state;
 }
 
 SimulatedGrowth simulated_growth(const TipStructure& structure, const Cutter& cutter, const CuttingLoad& load,

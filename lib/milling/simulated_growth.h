@@ -19,6 +19,10 @@ struct SimulatedGrowth {
 /// Throws NoAnswer where that does not settle.
 SimulatedGrowth growth_of(const SimulatedCut& cut, double displacement_scale_m);
 
+/// The motion that repeats every cycle where the teeth stay in contact, at the beginning of one: the state of
+/// at_rest() moved. By the generalized minimal residual [Saad1986].
+SimulatedCut::State periodic_state(const SimulatedCut& cut, double displacement_scale_m);
+
 /// With as many steps as it needs. Throws NoAnswer, with Remedy::kModes, where the fastest mode turns too
 /// often to be followed.
 SimulatedGrowth simulated_growth(const TipStructure& structure, const Cutter& cutter, const CuttingLoad& load,

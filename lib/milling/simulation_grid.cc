@@ -90,6 +90,16 @@ SimulationTouch touch_at(const Cutter& cutter, int node, int tooth, int disc, do
   return touch;
 }
 
+double rise_within(double end_rad, double next_rad) {
+  return std::max(0.0, std::sin((end_rad + next_rad) / 2) - std::sin(end_rad));
+}
+
+// Of a pass in the order of its nodes.
+void set_within(std::vector<SimulationTouch>& pass) {
+  pass.front().within = rise_within(pass.front().phi_rad, pass[1].phi_rad);
+  pass.back().within = rise_within(pass.back().phi_rad, pass[pass.size() - 2].phi_rad);
+}
+
 bool in_cut(const Cutter& cutter, double phi) {
   return phi > cutter.entry_rad - kSameNode && phi < cutter.exit_rad + kSameNode;
 }
@@ -123,6 +133,7 @@ void touch_with_equal_pitch(const Cutter& cutter, const SimulationSteps& steps, 
       }
     }
     pass.back().leave_to = last;
+    set_within(pass);
     grid.touches.insert(grid.touches.end(), pass.begin(), pass.end());
     grid.disc_from.push_back(last);
   }
@@ -145,6 +156,7 @@ void touch_in_pass(const Cutter& cutter, double step, int base, int count, int b
                    std::vector<SimulationTouch>& pass, SimulationGrid& grid) {
   std::sort(pass.begin(), pass.end(),
             [](const SimulationTouch& a, const SimulationTouch& b) { return a.phi_rad < b.phi_rad; });
+  set_within(pass);
   int written = 0, left = base;
   for (std::size_t i = 0; i < pass.size(); ++i) {
     SimulationTouch& touch = pass[i];
@@ -209,6 +221,12 @@ SimulationGrid simulation_grid(const Cutter& cutter, double depth_m, const Simul
     touch_with_equal_pitch(cutter, steps, grid);
   else
     touch_with_unequal_pitch(cutter, steps, grid);
+  grid.surface_within.assign(grid.surface_at.size(), 0);
+  for (std::size_t disc = 0; disc + 1 < grid.disc_from.size(); ++disc) {
+    const int first = grid.disc_from[disc], last = grid.disc_from[disc + 1] - 1;
+    grid.surface_within[first] = rise_within(grid.surface_at[first], grid.surface_at[first + 1]);
+    grid.surface_within[last] = rise_within(grid.surface_at[last], grid.surface_at[last - 1]);
+  }
   std::stable_sort(grid.touches.begin(), grid.touches.end(),
                    [](const SimulationTouch& a, const SimulationTouch& b) { return a.node < b.node; });
   grid.first_touch.assign(grid.steps() + 1, 0);

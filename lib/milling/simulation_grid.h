@@ -22,6 +22,9 @@ struct SimulationTouch {
   int tooth = 0;  ///< in the first period; in period p the tooth (tooth + p * shift) mod teeth
   int disc = 0;
   double phi_rad = 0, sine = 0, cosine = 0;
+  /// Where the disc enters or leaves: by how much the sine is larger half a step within the cut, where
+  /// whether it is in contact is judged.
+  double within = 0;
   int surface = 0;  ///< the surface there: `weight` times the four numbers from this one on
   std::array<double, 4> weight{};
   bool before = false, after = false;  ///< whether the disc is in cut before the node, and after it
@@ -45,7 +48,8 @@ struct SimulationGrid {
   std::vector<double> depth_m;     ///< [discs] of each
   std::vector<double> lag_rad;     ///< [discs]
   std::vector<double> surface_at;  ///< phi of each number of the surface, disc after disc
-  std::vector<int> disc_from;      ///< [discs + 1] where a disc's part of it begins
+  std::vector<double> surface_within;    ///< the same of each number of the surface as `within` of a touch
+  std::vector<int> disc_from;            ///< [discs + 1] where a disc's part of it begins
   std::vector<SimulationTouch> touches;  ///< by node
   std::vector<int> first_touch;          ///< [steps + 1] of each node of 0 ... steps - 1, and the end
   std::vector<SurfaceWrite> writes;
