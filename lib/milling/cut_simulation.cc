@@ -130,6 +130,7 @@ SimulationResult simulate_cut(const TipStructure& structure, const Cutter& cutte
   if (request.per_pitch) steps.per_pitch = *request.per_pitch;
   const SimulatedCut cut(structure, cutter, load, speed, request.depth_m, steps);
   const SimulationGrid& grid = cut.grid();
+  result.steps_per_tooth = grid.steps() / grid.passes;
   const int teeth = cutter.teeth, passes_of_period = grid.passes;
   result.passes = request.passes ? (*request.passes + teeth - 1) / teeth * teeth
                                  : passes_of(result.growth, teeth, 1.0 * grid.steps() / passes_of_period);

@@ -23,7 +23,8 @@ struct SimulationResult {
   SimulatedGrowth growth;
   bool stable() const { return growth.per_tooth < 1; }
 
-  int passes = 0;       ///< teeth followed, from rest in the cut
+  int steps_per_tooth = 0;  ///< of the mean pitch
+  int passes = 0;           ///< teeth followed, from rest in the cut
   bool settled = true;  ///< the motion at the end repeats with the teeth
   /// The tip has gone a decimetre away: the modes are not those of a structure that holds a
   /// tool. Followed to there; only the growth says anything.

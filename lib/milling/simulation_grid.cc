@@ -105,9 +105,8 @@ bool in_cut(const Cutter& cutter, double phi) {
 }
 
 // With equal pitch all teeth pass the nodes at the same angles: the surface is known there.
-void touch_with_equal_pitch(const Cutter& cutter, const SimulationSteps& steps, SimulationGrid& grid) {
+void touch_with_equal_pitch(const Cutter& cutter, SimulationGrid& grid) {
   const double pitch = grid.period_rad;
-  const auto back = static_cast<int>(std::ceil(steps.shift_rad * grid.steps() / pitch));
   for (int disc = 0; disc < static_cast<int>(grid.lag_rad.size()); ++disc) {
     const double lag = grid.lag_rad[disc];
     const auto from = static_cast<int>(std::floor((cutter.entry_rad + lag) / pitch)) - 1;
@@ -125,14 +124,13 @@ void touch_with_equal_pitch(const Cutter& cutter, const SimulationSteps& steps, 
         touch.write_from = static_cast<int>(grid.writes.size());
         grid.writes.push_back({last, {0, 0, 1}});
         touch.write_to = touch.write_from + 1;
-        touch.leave_from = std::max(base, last - back);
-        touch.leave_to = std::max(base, last + 1 - back);
+        touch.leave_from = last;
+        touch.leave_to = last + 1;
         grid.surface_at.push_back(phi);
         pass.push_back(touch);
         ++last;
       }
     }
-    pass.back().leave_to = last;
     set_within(pass);
     grid.touches.insert(grid.touches.end(), pass.begin(), pass.end());
     grid.disc_from.push_back(last);
@@ -152,8 +150,8 @@ std::array<double, 3> write_weights(double two, double one, double x) {
 }
 
 // One tooth's pass of a disc, over a surface at equal distances.
-void touch_in_pass(const Cutter& cutter, double step, int base, int count, int back,
-                   std::vector<SimulationTouch>& pass, SimulationGrid& grid) {
+void touch_in_pass(const Cutter& cutter, double step, int base, int count, std::vector<SimulationTouch>& pass,
+                   SimulationGrid& grid) {
   std::sort(pass.begin(), pass.end(),
             [](const SimulationTouch& a, const SimulationTouch& b) { return a.phi_rad < b.phi_rad; });
   set_within(pass);
@@ -175,7 +173,7 @@ void touch_in_pass(const Cutter& cutter, double step, int base, int count, int b
     int next = base + count;
     if (i + 1 < pass.size()) {
       const double then = (pass[i + 1].phi_rad - cutter.entry_rad) / step;
-      next = base + std::clamp(static_cast<int>(std::floor(then)) - 1, 0, count - kRead) - back;
+      next = base + std::clamp(static_cast<int>(std::floor(then)) - 1, 0, count - kRead);
       next = std::min(std::max(left, next), base + written);
     }
     touch.leave_from = left;
@@ -183,12 +181,11 @@ void touch_in_pass(const Cutter& cutter, double step, int base, int count, int b
   }
 }
 
-void touch_with_unequal_pitch(const Cutter& cutter, const SimulationSteps& steps, SimulationGrid& grid) {
+void touch_with_unequal_pitch(const Cutter& cutter, SimulationGrid& grid) {
   const double arc = cutter.exit_rad - cutter.entry_rad;
   const int parts =
       std::max(kLeastStepsOfArc, static_cast<int>(std::ceil(arc * grid.steps() / grid.period_rad)));
   const double step = arc / parts;
-  const auto back = static_cast<int>(std::ceil(steps.shift_rad / step));
   for (int disc = 0; disc < static_cast<int>(grid.lag_rad.size()); ++disc) {
     const int base = grid.disc_from.back(), count = parts + 1;
     for (int i = 0; i < count; ++i) grid.surface_at.push_back(cutter.entry_rad + i * step);
@@ -200,7 +197,7 @@ void touch_with_unequal_pitch(const Cutter& cutter, const SimulationSteps& steps
             wrapped(grid.turn_rad[node] - place_of(cutter, tooth) - grid.lag_rad[disc], kTwoPi);
         if (in_cut(cutter, phi)) pass.push_back(touch_at(cutter, node, tooth, disc, phi));
       }
-      touch_in_pass(cutter, step, base, count, back, pass, grid);
+      touch_in_pass(cutter, step, base, count, pass, grid);
       grid.touches.insert(grid.touches.end(), pass.begin(), pass.end());
     }
   }
@@ -218,9 +215,9 @@ SimulationGrid simulation_grid(const Cutter& cutter, double depth_m, const Simul
   set_discs(cutter, depth_m, steps.discs, grid);
   set_nodes(cutter, steps, grid);
   if (equal)
-    touch_with_equal_pitch(cutter, steps, grid);
+    touch_with_equal_pitch(cutter, grid);
   else
-    touch_with_unequal_pitch(cutter, steps, grid);
+    touch_with_unequal_pitch(cutter, grid);
   grid.surface_within.assign(grid.surface_at.size(), 0);
   for (std::size_t disc = 0; disc + 1 < grid.disc_from.size(); ++disc) {
     const int first = grid.disc_from[disc], last = grid.disc_from[disc + 1] - 1;

@@ -10,10 +10,9 @@ namespace stablecut::milling {
 
 /// How fine a simulation is.
 struct SimulationSteps {
-  int per_pitch = 0;     ///< of the mean pitch; more where a tooth enters or leaves between two
-  int discs = 1;         ///< straight ones that stand for a helical edge
-  bool in_cut = false;   ///< pieces of the period in which nothing cuts are one step
-  double shift_rad = 0;  ///< how far back a tooth may look at the surface (cycloidal path)
+  int per_pitch = 0;    ///< of the mean pitch; more where a tooth enters or leaves between two
+  int discs = 1;        ///< straight ones that stand for a helical edge
+  bool in_cut = false;  ///< pieces of the period in which nothing cuts are one step
 };
 
 /// One tooth's disc at a node of the grid.

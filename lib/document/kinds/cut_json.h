@@ -23,7 +23,11 @@ struct CutDocument {
 /// Points along an axis of the chart when nothing says how many.
 inline constexpr int kDefaultChartCount = 64;
 
+/// Whether a cut has to name Kt and Kr: not where they are what is sought. They are 0 where they are missing.
+enum class CoefficientsNeeded { kYes, kNo };
+
 /// Throws DataError.
-CutDocument cut_from_json(const Json& document, const Source& source);
+CutDocument cut_from_json(const Json& document, const Source& source,
+                          CoefficientsNeeded needed = CoefficientsNeeded::kYes);
 
 }  // namespace stablecut::document
