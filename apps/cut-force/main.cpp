@@ -122,7 +122,7 @@ class CutForce : public cli::Tool {
 
   void identify(const document::Input& input) {
     const document::CutDocument cut =
-        document::cut_from_json(input.document, input.source, document::CoefficientsNeeded::kNo);
+        document::cut_from_json(input.document, input.source, document::CoefficientsNeeded::kNone);
     const document::Input table = read_input(forces_path_, cli::InputForm::kText);
     std::vector<document::MeasuredForceRow> rows = document::measured_forces(table.source, cut);
     const std::filesystem::path folder = std::filesystem::path(forces_path_).parent_path();

@@ -25,7 +25,7 @@ struct SimulationResult {
 
   int steps_per_tooth = 0;  ///< of the mean pitch
   int passes = 0;           ///< teeth followed, from rest in the cut
-  bool settled = true;  ///< the motion at the end repeats with the teeth
+  bool settled = true;      ///< the motion at the end repeats with the teeth
   /// The tip has gone a decimetre away: the modes are not those of a structure that holds a
   /// tool. Followed to there; only the growth says anything.
   bool ran_away = false;

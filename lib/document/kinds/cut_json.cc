@@ -162,7 +162,7 @@ CutDocument cut_from_json(const Json& document, const Source& source, Coefficien
                     "identification"});
   CutDocument cut;
   cut.cutter.teeth = root.at("teeth").integer(1, kMostTeeth);
-  const bool all = needed == CoefficientsNeeded::kYes;
+  const bool all = needed == CoefficientsNeeded::kAll;
   if (all || root.has("kt_n_per_mm2"))
     cut.cutter.kt_n_per_m2 = n_per_m2_from_n_per_mm2(root.at("kt_n_per_mm2").number(kPositive));
   if (all || root.has("kr_n_per_mm2"))

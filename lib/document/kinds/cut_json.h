@@ -24,10 +24,10 @@ struct CutDocument {
 inline constexpr int kDefaultChartCount = 64;
 
 /// Whether a cut has to name Kt and Kr: not where they are what is sought. They are 0 where they are missing.
-enum class CoefficientsNeeded { kYes, kNo };
+enum class CoefficientsNeeded { kAll, kNone };
 
 /// Throws DataError.
 CutDocument cut_from_json(const Json& document, const Source& source,
-                          CoefficientsNeeded needed = CoefficientsNeeded::kYes);
+                          CoefficientsNeeded needed = CoefficientsNeeded::kAll);
 
 }  // namespace stablecut::document
