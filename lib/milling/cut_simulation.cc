@@ -127,7 +127,7 @@ SimulationResult simulate_cut(const TipStructure& structure, const Cutter& cutte
   result.growth = simulated_growth(structure, cutter, load, speed, request.depth_m);
   SimulationSteps steps = result.growth.steps;
   steps.in_cut = false;
-  if (request.per_pitch) steps.per_pitch = *request.per_pitch;
+  if (request.per_pitch) steps.longest_rad = longest_step_rad(cutter, *request.per_pitch);
   const SimulatedCut cut(structure, cutter, load, speed, request.depth_m, steps);
   const SimulationGrid& grid = cut.grid();
   result.steps_per_tooth = grid.steps() / grid.passes;

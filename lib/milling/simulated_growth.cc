@@ -183,7 +183,8 @@ SimulatedGrowth simulated_growth(const TipStructure& structure, const Cutter& cu
   const double waves = fastest * cutter.mean_pitch_rad() / kTwoPi;
   if (kStepsPerWave * waves > kMostSteps)
     throw no_answer_at(revolutions_per_s, "the fastest mode turns too often to be simulated");
-  steps.per_pitch = std::max(kLeastSteps, static_cast<int>(std::ceil(kStepsPerWave * waves)));
+  steps.longest_rad =
+      longest_step_rad(cutter, std::max(kLeastSteps, static_cast<int>(std::ceil(kStepsPerWave * waves))));
   steps.discs = static_cast<int>(std::ceil(kFirstDiscs + kDiscsPerRadian * (fastest + 2) *
                                                              std::abs(cutter.lag_rad_per_m) * depth_m / 2));
   steps.in_cut = true;
@@ -196,7 +197,7 @@ SimulatedGrowth simulated_growth(const TipStructure& structure, const Cutter& cu
   };
   SimulatedGrowth before = growth();
   for (int doubling = 0;; ++doubling) {
-    steps.per_pitch *= 2;
+    steps.longest_rad /= 2;
     steps.discs += (steps.discs + 1) / 2;
     SimulatedGrowth found = growth();
     const double change = found.per_tooth - before.per_tooth;

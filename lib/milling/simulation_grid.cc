@@ -55,9 +55,6 @@ void set_nodes(const Cutter& cutter, const SimulationSteps& steps, SimulationGri
   ends.erase(std::unique(ends.begin(), ends.end(), [](double a, double b) { return b - a < kSameNode; }),
              ends.end());
   ends.push_back(grid.period_rad);
-  double longest = std::min(cutter.mean_pitch_rad() / steps.per_pitch,
-                            (cutter.exit_rad - cutter.entry_rad) / kLeastStepsOfArc);
-  for (const double pitch : cutter.pitch_rad) longest = std::min(longest, pitch / kLeastStepsOfPitch);
   const auto cuts = [&](double turn) {
     for (int tooth = 0; tooth < (cutter.equal_pitch() ? 1 : cutter.teeth); ++tooth) {
       for (const double lag : grid.lag_rad) {
@@ -71,7 +68,8 @@ void set_nodes(const Cutter& cutter, const SimulationSteps& steps, SimulationGri
   for (std::size_t e = 0; e + 1 < ends.size(); ++e) {
     const double length = ends[e + 1] - ends[e];
     const bool idle = steps.in_cut && !cuts((ends[e] + ends[e + 1]) / 2);
-    const int parts = idle ? 1 : std::max(1, static_cast<int>(std::ceil(length / longest - kSameNode)));
+    const int parts =
+        idle ? 1 : std::max(1, static_cast<int>(std::ceil(length / steps.longest_rad - kSameNode)));
     for (int i = 0; i < parts; ++i) grid.turn_rad.push_back(ends[e] + length * i / parts);
   }
   grid.turn_rad.push_back(grid.period_rad);
@@ -204,6 +202,13 @@ void touch_with_unequal_pitch(const Cutter& cutter, SimulationGrid& grid) {
 }
 
 }  // namespace
+
+double longest_step_rad(const Cutter& cutter, int per_pitch) {
+  double longest =
+      std::min(cutter.mean_pitch_rad() / per_pitch, (cutter.exit_rad - cutter.entry_rad) / kLeastStepsOfArc);
+  for (const double pitch : cutter.pitch_rad) longest = std::min(longest, pitch / kLeastStepsOfPitch);
+  return longest;
+}
 
 SimulationGrid simulation_grid(const Cutter& cutter, double depth_m, const SimulationSteps& steps) {
   SimulationGrid grid;

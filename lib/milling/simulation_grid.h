@@ -10,9 +10,9 @@ namespace stablecut::milling {
 
 /// How fine a simulation is.
 struct SimulationSteps {
-  int per_pitch = 0;    ///< of the mean pitch; more where a tooth enters or leaves between two
-  int discs = 1;        ///< straight ones that stand for a helical edge
-  bool in_cut = false;  ///< pieces of the period in which nothing cuts are one step
+  double longest_rad = 0;  ///< of turn; shorter where a tooth enters or leaves between two
+  int discs = 1;           ///< straight ones that stand for a helical edge
+  bool in_cut = false;     ///< pieces of the period in which nothing cuts are one step
 };
 
 /// One tooth's disc at a node of the grid.
@@ -56,6 +56,10 @@ struct SimulationGrid {
 
   int steps() const { return static_cast<int>(turn_rad.size()) - 1; }
 };
+
+/// The longest step of so many in a mean pitch, and of some in a tooth's way through the cut and in the
+/// smallest pitch.
+double longest_step_rad(const Cutter& cutter, int per_pitch);
 
 SimulationGrid simulation_grid(const Cutter& cutter, double depth_m, const SimulationSteps& steps);
 
