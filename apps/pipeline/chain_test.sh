@@ -25,3 +25,7 @@ check_jq "provenance of samples and robot" pose.json '[.provenance.inputs[] | .n
 rcsa-couple "$data/liu-assembly.json" | fit-modes --quiet | sdm-lobes --cut "$data/thesis-cut.json" --depth 0:0.2:8 --speed 9000:12000:4 -o tool.json
 check_jq "lobes of a tool that nobody tapped: it chatters at its first mode, 294 Hz" tool.json '
   [.limit[] | select(.depth_mm) | .chatter_frequency_hz] | length >= 2 and all(. > 285 and . < 300)'
+
+cut-force --identify "$data/slot-forces.csv" "$data/slotting-tool.json" | sdm-lobes --cut - "$table" --speed 9000:12000:4 --depth 0:2:5 --samples 20 -o drawn.json
+check_jq "coefficients from a dynamometer to the probability of stability" drawn.json '[.probability_stable | flatten[] | select(. > 0 and . < 1)] | length > 0'
+check_jq "provenance reaches the forces" drawn.json '[.provenance.inputs[] | select(.from) | .from.inputs[].name] | any(endswith("slot-forces.csv"))'

@@ -12,14 +12,16 @@ best-pose --robot "$robot" --height 1600 --x=-2600:2600:14 --y=-2600:2600:14 --m
 jq -n '{format: "stablecut/tool-path/1", speed_mm_per_s: 100, frame: {translation_mm: [1800, 0, 1600], rotation: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]},
   points: [range(21) | {position_mm: [0, . * 40 - 400, 0], axis: [0, 0, -1]}]}' >tool-path.json
 best-pose --robot "$robot" --path tool-path.json --quiet k2d.json -o path.json
-for plot in lobes frf pose-map stabilization path; do
+jq '.feed_per_tooth_mm = 0.1' "$data/thesis-cut.json" >fed.json
+cut-force fed.json --depth 2 --speed 9000 --table "$data/thesis-table-6-2.json" --points "$data/thesis-table-6-3.csv" --passes 200 --quiet -o force.json
+for plot in lobes frf pose-map stabilization path force; do
   for form in svg png; do
     "$scripts/plot-$plot" $plot.json -o $plot.$form 2>.err
     check "plot-$plot to $form" test $? -eq 0 -a -s $plot.$form -a ! -s .err
   done
   check "plot-$plot: SVG" grep -q '</svg>' $plot.svg
   check "plot-$plot: PNG" test "$(head -c 4 $plot.png | tail -c 3)" = PNG
-  if [ $plot != pose-map ] && [ $plot != path ]; then
+  if [ $plot != pose-map ] && [ $plot != path ] && [ $plot != force ]; then
     "$scripts/plot-$plot" --terminal <$plot.json >text
     check "plot-$plot in a terminal" grep -q 'o\|\.' text
   fi
@@ -115,3 +117,17 @@ for plot in lobes frf pose-map stabilization path; do
   check "plot-$plot: no text in the place of a number" test $places -ge 2
 done
 refused 65 '^plot-path: wall.json: /height_mm: expected a horizontal plane' "$scripts/plot-path" path.json --map wall.json -o x.svg
+
+# Forces.
+check "growth and samples" grep -q 'growth per tooth' force.svg
+"$scripts/plot-force" --point 21 force.json -o point.svg
+check "another point" grep -q '2 mm, 5000 rpm: growth 1.36' point.svg
+refused 64 '^plot-force: --point: 22: expected a number from 1 to 21' "$scripts/plot-force" --point 22 force.json -o x.svg
+refused 64 '^plot-force: --point: a\[0\]: expected' "$scripts/plot-force" --point 'a[0]' force.json -o x.svg
+cut-force fed.json --harmonics 0 -o alone.json
+"$scripts/plot-force" alone.json -o alone.svg 2>.err
+check "a force without points and harmonics, without a word" test -s alone.svg -a ! -s .err
+for field in .depth_mm '.mean_force_n[1]' '.wave.axial_n[3]' '.harmonics[0].force_n[0][0]' '.points[2].speed_rpm' '.points[2].samples_um.feed[0]'; do
+  jq "$field = \"system(1)\"" force.json >hostile.json
+  refused 65 '^plot-force: hostile.json: .*expected numbers' "$scripts/plot-force" hostile.json -o x.svg
+done

@@ -42,7 +42,7 @@ for kind, schema in schemas.items():
     Draft202012Validator.check_schema(schema)
     constant = schema["properties"]["format"]["const"]
     check(f"{kind}: names itself", [] if constant == f"stablecut/{kind}/1" else [ValueError(constant)])
-    for tool in ("fit-modes", "sdm-lobes", "joint-stiffness", "best-pose", "rcsa-couple"):
+    for tool in ("fit-modes", "sdm-lobes", "joint-stiffness", "best-pose", "rcsa-couple", "cut-force"):
         printed = run(tool, "--print-schema", kind)
         check(f"{tool} prints {kind}", [] if printed == schema else [ValueError("another schema")])
 
@@ -69,6 +69,27 @@ documents = {
                  str(source / "testdata/thesis-table-6-3.csv"), table),
     "lobes by sdm, limit only": run("sdm-lobes", "--cut", cut, *chart, "--method", "sdm", "--limit-only", table),
 }
+
+fed = json.loads((source / "testdata/thesis-cut.json").read_text()) | {"feed_per_tooth_mm": 0.1}
+slots = (source / "testdata/slot-forces.csv").read_text()
+with tempfile.TemporaryDirectory() as folder:
+    forces = pathlib.Path(folder) / "forces.csv"
+    tool = str(source / "testdata/slotting-tool.json")
+    identify = ["cut-force", "--identify", str(forces), tool]
+    forces.write_text(slots)
+    documents["identified cut"] = run(*identify)
+    forces.write_text("\n".join(line for line in slots.splitlines() if line[0] == "f" or ",0.03," in line))
+    documents["identified cut, edges held"] = run(*identify, "--edges", "cut")
+documents |= {
+    "force": run("cut-force", stdin=json.dumps(fed)),
+    "force with points": run("cut-force", "--speed", "9000", "--table", table, "--points",
+                             str(source / "testdata/thesis-table-6-3.csv"), "--passes", "100", stdin=json.dumps(fed)),
+}
+with tempfile.TemporaryDirectory() as folder:
+    slow = pathlib.Path(folder) / "slow.csv"
+    slow.write_text("1,0.01\n1,20000\n")
+    documents["a point without an answer"] = run("cut-force", "--table", table, "--points", str(slow), "--passes", "64",
+                                                 stdin=json.dumps(fed))
 
 papers = json.loads((source / "testdata/yanshan-poses.json").read_text())
 robot = ["--robot", str(source / "testdata/kr360.json"), "--quiet"]
@@ -128,11 +149,11 @@ documents["springs and discrepancy of the user"] = partial | {
     "springs": [{"name": "base.x", "compliance_m_per_n": 1e-8}, {"name": "A2.y", "compliance_rad_per_n_m": None}]}
 documents["stiffness where one load leaves joints unseen"] = run(
     "joint-stiffness", *robot, stdin=json.dumps(documents["load samples"]))
-required = {"frf": "h", "modal-table": "modes", "lobes": "limit", "robot": "tool", "load-samples": "samples",
+required = {"cut": "teeth", "cut-force": "mean_force_n", "frf": "h", "modal-table": "modes", "lobes": "limit", "robot": "tool", "load-samples": "samples",
             "joint-stiffness": "stiffness_n_m_per_rad", "pose-list": "poses", "measurement-plan": "samples", "pose": "index",
             "pose-map": "score", "pose-path": "points", "tool-path": "points", "assembly": "tool", "tool-joint": "x", "stabilization": "orders"}
 # A joint in one direction has its values at the root.
-assert set(required) | {"cut"} == set(schemas), "a kind without an example"
+assert set(required) == set(schemas), "a kind without an example"
 for name, document in documents.items():
     validate(name, document)
     broken = dict(document)

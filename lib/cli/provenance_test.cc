@@ -22,9 +22,10 @@ TEST_CASE("an input's own provenance is carried on") {
 }
 
 TEST_CASE("what only calls itself a provenance is not carried on") {
-  for (const char* text :
-       {R"({"provenance": {"tool": "t", "version": "1", "arguments": [], "inputs": [{"name": "a", "sha256": "0g"}]}})",
-        R"({"provenance": "hello"})", R"({"provenance": {}})", R"({"provenance": {"tool": "t"}})"}) {
+  for (
+      const char* text :
+      {R"({"provenance": {"tool": "t", "version": "1", "arguments": [], "inputs": [{"name": "a", "sha256": "0g"}]}})",
+       R"({"provenance": "hello"})", R"({"provenance": {}})", R"({"provenance": {"tool": "t"}})"}) {
     const document::Source source{"a.json", text};
     CHECK(provenance_input(source, document::parse_json(source)).from.is_null());
   }

@@ -62,7 +62,10 @@ std::vector<SampledCut> sampled_cuts(const dynamics::ModalModel& model, const Cu
     Eigen::VectorXd z(root.cols());
     for (double& value : z) value = normal();
     const Eigen::VectorXd by = root * z;
-    const double kt = deviations.kt_n_per_m2 * normal(), kr = deviations.kr_n_per_m2 * normal();
+    const double along = normal(), across = normal(), together = deviations.correlation;
+    const double kt = deviations.kt_n_per_m2 * along;
+    const double kr =
+        deviations.kr_n_per_m2 * (together * along + std::sqrt(1 - together * together) * across);
     for (const double side : {1.0, -1.0}) {
       SampledCut sample{tip_structure(by.size() > 0 ? moved(model, side * by) : model, cutter.is_axial()),
                         cutter};

@@ -14,9 +14,10 @@
 
 namespace stablecut::milling {
 
-/// Standard deviations of the cutting coefficients, N/m2.
+/// Standard deviations of the cutting coefficients, N/m2, and how they go together.
 struct CoefficientDeviations {
   double kt_n_per_m2 = 0, kr_n_per_m2 = 0;
+  double correlation = 0;
 };
 
 struct SampledCut {

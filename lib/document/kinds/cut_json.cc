@@ -22,6 +22,7 @@ constexpr Bound kLead{
     .open_least = true,
     .words = "a lead angle above 0 and at most 90 degrees, from the plane normal to the axis"};
 constexpr Bound kDepth{.least = 0, .most = kMostDepthMm, .words = "a depth from 0 to 10000 mm"};
+constexpr Bound kCorrelation{.least = -1, .most = 1, .words = "a correlation from -1 to 1"};
 constexpr Bound kHelix{.least = -90,
                        .most = 90,
                        .open_least = true,
@@ -125,9 +126,22 @@ void read_load(const Node& root, CutDocument& cut) {
   }
 }
 
+void read_deviations(const Node& root, CutDocument& cut) {
+  const auto deviation = [&](const char* name) {
+    const auto node = root.find(name);
+    return node ? node->number(kNotNegative) : 0;
+  };
+  cut.deviations.kt_n_per_m2 = n_per_m2_from_n_per_mm2(deviation("kt_std_n_per_mm2"));
+  cut.deviations.kr_n_per_m2 = n_per_m2_from_n_per_mm2(deviation("kr_std_n_per_mm2"));
+  for (const char* name : {"ka_std_n_per_mm2", "kte_std_n_per_mm", "kre_std_n_per_mm", "kae_std_n_per_mm"})
+    deviation(name);  // of the force, not of stability
+  if (const auto correlation = root.find("kt_kr_correlation"))
+    cut.deviations.correlation = correlation->number(kCorrelation);
+}
+
 }  // namespace
 
-CutDocument cut_from_json(const Json& document, const Source& source) {
+CutDocument cut_from_json(const Json& document, const Source& source, CoefficientsNeeded needed) {
   const Node root = document_root(document, source, "cut");
   root.check_names({"format",
                     "teeth",
@@ -154,11 +168,20 @@ CutDocument cut_from_json(const Json& document, const Source& source) {
                     "kte_n_per_mm",
                     "kre_n_per_mm",
                     "kae_n_per_mm",
-                    "runout_um"});
+                    "runout_um",
+                    "ka_std_n_per_mm2",
+                    "kte_std_n_per_mm",
+                    "kre_std_n_per_mm",
+                    "kae_std_n_per_mm",
+                    "kt_kr_correlation",
+                    "identification"});
   CutDocument cut;
   cut.cutter.teeth = root.at("teeth").integer(1, kMostTeeth);
-  cut.cutter.kt_n_per_m2 = n_per_m2_from_n_per_mm2(root.at("kt_n_per_mm2").number(kPositive));
-  cut.cutter.kr_n_per_m2 = n_per_m2_from_n_per_mm2(root.at("kr_n_per_mm2").number(kNotNegative));
+  const bool all = needed == CoefficientsNeeded::kAll;
+  if (all || root.has("kt_n_per_mm2"))
+    cut.cutter.kt_n_per_m2 = n_per_m2_from_n_per_mm2(root.at("kt_n_per_mm2").number(kPositive));
+  if (all || root.has("kr_n_per_mm2"))
+    cut.cutter.kr_n_per_m2 = n_per_m2_from_n_per_mm2(root.at("kr_n_per_mm2").number(kNotNegative));
   read_engagement(root, cut.cutter);
   if (const auto feed = root.find("feed_angle_deg")) {
     cut.cutter.feed_angle_rad = radians_from_degrees(feed->number());
@@ -168,10 +191,7 @@ CutDocument cut_from_json(const Json& document, const Source& source) {
   read_edges(root, cut.cutter);
   read_process_damping(root, cut.cutter);
   read_load(root, cut);
-  if (const auto kt = root.find("kt_std_n_per_mm2"))
-    cut.deviations.kt_n_per_m2 = n_per_m2_from_n_per_mm2(kt->number(kNotNegative));
-  if (const auto kr = root.find("kr_std_n_per_mm2"))
-    cut.deviations.kr_n_per_m2 = n_per_m2_from_n_per_mm2(kr->number(kNotNegative));
+  read_deviations(root, cut);
   if (const auto chart = root.find("chart")) {
     chart->check_names({"speed_rpm", "depth_mm"});
     if (const auto speed = chart->find("speed_rpm")) cut.speed_rpm = chart_range(*speed, kPositive);

@@ -26,7 +26,11 @@ inline constexpr double kMostDepthMm = 10'000;
 /// Points along an axis of the chart when nothing says how many.
 inline constexpr int kDefaultChartCount = 64;
 
+/// Whether a cut has to name Kt and Kr: not where they are what is sought. They are 0 where they are missing.
+enum class CoefficientsNeeded { kAll, kNone };
+
 /// Throws DataError.
-CutDocument cut_from_json(const Json& document, const Source& source);
+CutDocument cut_from_json(const Json& document, const Source& source,
+                          CoefficientsNeeded needed = CoefficientsNeeded::kAll);
 
 }  // namespace stablecut::document

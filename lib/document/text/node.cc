@@ -124,8 +124,8 @@ Eigen::VectorXd Node::numbers(const Bound& bound) const {
   for (const Json& item : *value_) {
     // The common case without building a pointer.
     const double value = item.is_number() ? item.get<double>() : std::numeric_limits<double>::quiet_NaN();
-    const bool inside = std::abs(value) <= kLargestNumber && value > bound.least + 1 / kLargestNumber &&
-                        value < bound.most;
+    const bool inside =
+        std::abs(value) <= kLargestNumber && value > bound.least + 1 / kLargestNumber && value < bound.most;
     result[i] =
         inside ? value : Node(item, *source_, pointer_step(pointer_, std::to_string(i))).number(bound);
     ++i;

@@ -1,0 +1,154 @@
+// cut-force: the force of a cut; cuts simulated; cutting coefficients from measured forces.
+
+#include <filesystem>
+#include <optional>
+
+#include "base/number_text.h"
+#include "base/units.h"
+#include "cli/exit_status.h"
+#include "cli/progress_bar.h"
+#include "cli/tool.h"
+#include "document/kinds/cut_force_json.h"
+#include "document/kinds/cut_json.h"
+#include "document/text/data_error.h"
+#include "identify.h"
+#include "points.h"
+#include "words.h"
+
+namespace stablecut {
+namespace {
+
+constexpr double kDefaultDepthMm = 1;
+constexpr int kDefaultHarmonics = 10;
+
+bool is_positive(double value) { return value > 0; }
+
+class CutForce : public cli::Tool {
+ public:
+  CutForce()
+      : cli::Tool("cut-force",
+                  "Force, torque and power of a cut; with the modes of the tool tip, cuts simulated in time: "
+                  "growth, surface, chatter; and cutting coefficients from measured forces.",
+                  "cut-force cut.json --depth 2 --table modes.json --points tested.csv > force.json",
+                  "cut-force") {}
+
+ private:
+  void setup(CLI::App& app) override {
+    cli::begin_group(app, "The force");
+    cli::add_number_option(app, "--depth", depth_, "Axial depth of cut, mm (default: 1)", "a number above 0",
+                           is_positive);
+    cli::add_number_option(app, "--speed", speed_, "Spindle speed, rpm: for the power", "a number above 0",
+                           is_positive);
+    cli::add_integer_option(app, "--harmonics", harmonics_, 0, "Harmonics of the force (default: 10)");
+
+    cli::begin_group(app, "Simulation");
+    add_file_option(app, "--table", table_path_, "Modal table of the tool tip");
+    add_file_option(
+        app, "--points", points_path_,
+        "Cuts to simulate: CSV or JSON with depth_mm, speed_rpm[, observed] (default: --depth and "
+        "--speed)");
+    cli::add_integer_option(app, "--passes", request_.passes, 1,
+                            "Teeth to follow (default: until what was there at the start is gone)");
+    cli::add_integer_option(app, "--steps", request_.steps, 8,
+                            "Steps of a tooth period (default: as many as the growth needs)");
+    app.add_flag("--from-rest", request_.from_rest,
+                 "Begin at rest in the full cut, a blow, instead of beside the periodic motion");
+
+    cli::begin_group(app, "Coefficients from forces");
+    identify_option_ =
+        add_file_option(app, "--identify", forces_path_,
+                        "Write the cut with the coefficients that explain these mean forces (CSV)");
+    cli::add_choice_option(app, "--edges", edges_, "fit|cut",
+                           "fit (default): find edge forces too; cut: take those of the cut, or none");
+    cli::add_choice_option(app, "--force-on", force_on_, "tool|workpiece",
+                           "What the measured forces act on (default: tool)");
+  }
+
+  void run() override {
+    check_usage();
+    const document::Input input = read_main_input(cli::InputForm::kJson);
+    if (identify_option_->count() > 0)
+      identify(input);
+    else
+      compute(input);
+  }
+
+  void check_usage() const {
+    const bool identifies = identify_option_->count() > 0;
+    cli::refuse_if(identifies && (depth_ || speed_ || harmonics_ || !table_path_.empty()),
+                   "--identify: expected without --depth, --speed, --harmonics and --table");
+    cli::refuse_if(!identifies && !edges_.empty(), "--edges: expected with --identify only");
+    cli::refuse_if(!identifies && !force_on_.empty(), "--force-on: expected with --identify only");
+    cli::refuse_if(!points_path_.empty() && table_path_.empty(), "--points: expected with --table only");
+    cli::refuse_if(!table_path_.empty() && points_path_.empty() && !(depth_ && speed_),
+                   "--table: expected --points, or --depth and --speed");
+    cli::refuse_if((request_.passes || request_.steps || request_.from_rest) && table_path_.empty(),
+                   "--passes, --steps, --from-rest: expected with --table only");
+  }
+
+  void compute(const document::Input& input) {
+    const document::CutDocument cut = document::cut_from_json(input.document, input.source);
+    if (!cut.feed_per_tooth_m)
+      throw document::DataError(input.source.name, "/feed_per_tooth_mm", "",
+                                "missing: expected a feed above 0, and diameter_mm beside it");
+    document::CutForceDocument document;
+    document.cut = input.document;
+    document.cut.erase("format");
+    document.cut.erase("provenance");
+    document.diameter_m = cut.cutter.diameter_m;
+    document.depth_mm = depth_.value_or(kDefaultDepthMm);
+    document.speed_rpm = speed_;
+    document.harmonics = harmonics_.value_or(kDefaultHarmonics);
+    if (!table_path_.empty()) {
+      cli::refuse_if(cut.cutter.lead_rad != kPi / 2 || cut.cutter.corner_radius_m > 0,
+                     "--table: expected a cut without lead_angle_deg and corner_radius_mm");
+      const milling::TipStructure structure = structure_of(read_input(table_path_, cli::InputForm::kJson));
+      std::vector<document::MeasuredCut> points;
+      std::string name = "--depth and --speed";
+      if (points_path_.empty()) {
+        points = {{*depth_, *speed_, {}}};
+      } else {
+        const document::Input table = read_input(points_path_, cli::InputForm::kByContent);
+        points = document::measured_cuts(table.source, table.document);
+        name = table.source.name;
+        if (points.empty()) throw document::DataError(name, "", "", "expected one cut at least");
+      }
+      cli::ProgressBar bar("cut-force: points", !quiet());
+      document.points = simulated_points(structure, cut, points, request_, threads(),
+                                         [&](double share) { bar.show(share); });
+      for (const std::string& warning : point_warnings(document.points, name)) warn(warning);
+    }
+    const milling::EdgeForce force(cut.cutter, cut.load, metres_from_mm(document.depth_mm));
+    write_document(main_output(), document::cut_force_to_json(document, force));
+  }
+
+  void identify(const document::Input& input) {
+    const document::CutDocument cut =
+        document::cut_from_json(input.document, input.source, document::CoefficientsNeeded::kNone);
+    const document::Input table = read_input(forces_path_, cli::InputForm::kText);
+    std::vector<document::MeasuredForceRow> rows = document::measured_forces(table.source, cut);
+    const std::filesystem::path folder = std::filesystem::path(forces_path_).parent_path();
+    for (document::MeasuredForceRow& row : rows) {
+      if (row.record.empty()) continue;
+      const document::Input record = read_input((folder / row.record).string(), cli::InputForm::kText);
+      row.force.force_n = document::mean_of_record(record.source, row.speed_rpm);
+    }
+    const document::IdentifiedCut identified =
+        identified_cut(input.document, cut, std::move(rows), {edges_ == "cut", force_on_ == "workpiece"});
+    for (const std::string& warning :
+         identification_warnings(identified.found, identified.held_at_zero, table.source.name))
+      warn(warning);
+    write_document(main_output(), document::identified_cut_to_json(identified));
+  }
+
+  std::optional<double> depth_, speed_;
+  std::optional<int> harmonics_;
+  PointRequest request_;
+  std::string table_path_, points_path_, forces_path_, edges_, force_on_;
+  CLI::Option* identify_option_ = nullptr;
+};
+
+}  // namespace
+}  // namespace stablecut
+
+int main(int argc, char** argv) { return stablecut::CutForce().main(argc, argv); }

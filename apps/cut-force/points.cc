@@ -1,0 +1,51 @@
+#include "points.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/units.h"
+#include "document/kinds/modal_table_json.h"
+#include "document/text/data_error.h"
+
+namespace stablecut {
+
+milling::TipStructure structure_of(const document::Input& table) {
+  const dynamics::ModalModel model = document::modal_table_from_json(table.document, table.source);
+  if (model.dof("x") < 0 && model.dof("y") < 0)
+    throw document::DataError(table.source.name, "/dofs", document::Json(model.dofs).dump(),
+                              "expected x, y or both");
+  milling::TipStructure structure = milling::tip_structure(model);
+  if (structure.modes() == 0)
+    throw document::DataError(
+        table.source.name, "/modes", "",
+        "expected at least one mode that a force in x or y drives and that moves x or y");
+  return structure;
+}
+
+std::vector<document::SimulatedPoint> simulated_points(const milling::TipStructure& structure,
+                                                       const document::CutDocument& cut,
+                                                       const std::vector<document::MeasuredCut>& points,
+                                                       const PointRequest& request, int threads,
+                                                       const Progress& progress) {
+  std::vector<document::SimulatedPoint> result(points.size());
+  parallel_for(
+      points.size(), threads,
+      [&](std::size_t i) {
+        result[i].cut = points[i];
+        try {
+          result[i].result = milling::simulate_cut(
+              structure, cut.cutter, cut.load,
+              {revolutions_per_s_from_rpm(points[i].speed_rpm), metres_from_mm(points[i].depth_mm),
+               request.passes, request.steps, request.from_rest});
+        } catch (const NoAnswer& failure) {
+          result[i].failure = failure.what();
+        }
+      },
+      progress);
+  if (std::none_of(result.begin(), result.end(), [](const auto& point) { return point.result.has_value(); }))
+    throw NoAnswer(result.front().failure);
+  return result;
+}
+
+}  // namespace stablecut

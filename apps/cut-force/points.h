@@ -1,0 +1,29 @@
+// --table and --points: cuts simulated.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "base/progress.h"
+#include "document/kinds/cut_force_json.h"
+#include "document/kinds/cut_json.h"
+#include "milling/structure.h"
+
+namespace stablecut {
+
+struct PointRequest {
+  std::optional<int> passes, steps;
+  bool from_rest = false;
+};
+
+/// The structure of a modal table. Throws DataError where no force in x or y moves the tip.
+milling::TipStructure structure_of(const document::Input& table);
+
+/// One result for each cut, the same whatever the number of threads. Throws NoAnswer where there is none.
+std::vector<document::SimulatedPoint> simulated_points(const milling::TipStructure& structure,
+                                                       const document::CutDocument& cut,
+                                                       const std::vector<document::MeasuredCut>& points,
+                                                       const PointRequest& request, int threads,
+                                                       const Progress& progress);
+
+}  // namespace stablecut

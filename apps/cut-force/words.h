@@ -1,0 +1,26 @@
+// What cut-force says: the facts of lib/milling in words.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "document/kinds/cut_force_json.h"
+#include "milling/force_identification.h"
+
+namespace stablecut {
+
+/// Why there is no cut where Kt or Kr cannot be told from the forces; empty where they can. `fitted`: without
+/// bounds.
+std::string no_coefficients_text(const milling::ForceIdentification& fitted);
+
+/// Warnings of an identification, in the order in which they are given; `source` is the table's name.
+std::vector<std::string> identification_warnings(const milling::ForceIdentification& fitted,
+                                                 const std::array<bool, milling::kCoefficients>& held_at_zero,
+                                                 const std::string& source);
+
+/// Warnings of simulated points; `source` is the name of their table.
+std::vector<std::string> point_warnings(const std::vector<document::SimulatedPoint>& points,
+                                        const std::string& source);
+
+}  // namespace stablecut
