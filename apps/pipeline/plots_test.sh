@@ -129,5 +129,5 @@ cut-force fed.json --harmonics 0 -o alone.json
 check "a force without points and harmonics, without a word" test -s alone.svg -a ! -s .err
 for field in .depth_mm '.mean_force_n[1]' '.wave.axial_n[3]' '.harmonics[0].force_n[0][0]' '.points[2].speed_rpm' '.points[2].samples_um.feed[0]'; do
   jq "$field = \"system(1)\"" force.json >hostile.json
-  refused 65 '^plot-force: hostile.json: .*expected numbers' "$scripts/plot-force" hostile.json -o x.svg
+  refused 65 '^plot-force: hostile.json: .*expected number' "$scripts/plot-force" hostile.json -o x.svg
 done
