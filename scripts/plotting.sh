@@ -53,13 +53,8 @@ plot_input() {
   local format
   format=$(jq -r '.format? // "none"' "$work/raw" 2>/dev/null) || plot_fail "$shown: not JSON: expected stablecut/$2/1" 65
   [ "$format" = "stablecut/$2/1" ] || plot_fail "$shown: /format: ${format:-nothing}: expected stablecut/$2/1" 65
-  local schema
-  for schema in "$scripts/../schemas" "$scripts/../share/stablecut/schemas" -; do
-    [ "$schema" != - ] || plot_fail "schemas: cannot be found beside the scripts" 70
-    [ ! -e "$schema/$2.schema.json" ] || break
-  done
   local broken
-  broken=$(jq -r --slurpfile schema "$schema/$2.schema.json" -f "$scripts/schema.jq" "$work/raw" | tr -d '\000-\037\177') ||
+  broken=$(jq -r --slurpfile schema "$scripts/../schemas/$2.schema.json" -f "$scripts/schema.jq" "$work/raw" | tr -d '\000-\037\177') ||
     plot_fail "$shown: expected one document" 65
   [ -z "$broken" ] || plot_fail "$shown: $broken" 65
   jq -c 'del(.provenance) | walk(if type == "string" then gsub("[^A-Za-z0-9 _.,:/^+*()=%-]"; "?") else . end)' "$work/raw" >"$work/$3"

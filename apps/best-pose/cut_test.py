@@ -9,25 +9,19 @@ import os
 import pathlib
 import random
 import subprocess
+import sys
 import tempfile
 
 from jsonschema import Draft202012Validator
 
 SOURCE = pathlib.Path(os.environ["SOURCE"])
+sys.path.insert(0, str(SOURCE / "apps"))
+sys.dont_write_bytecode = True
+from testing import check, finish, product  # noqa: E402
 ROBOT = json.loads((SOURCE / "testdata/kr360.json").read_text())
 STIFFNESS = json.loads((SOURCE / "testdata/yanshan-poses.json").read_text())["k_theta_2d_n_m_per_rad"]
 SCHEMAS = {kind: Draft202012Validator(json.loads((SOURCE / f"schemas/{kind}.schema.json").read_text()))
            for kind in ("pose", "pose-path")}
-passed = failed = 0
-
-
-def check(name, holds, what=""):
-    global passed, failed
-    if holds:
-        passed += 1
-    else:
-        failed += 1
-        print(f"FAILED: {name}: {what}")
 
 
 def dot(a, b):
@@ -47,10 +41,6 @@ def unit(a):
     return [x / size for x in a]
 
 
-def times(a, b):
-    return [[sum(a[i][k] * b[k][j] for k in range(4)) for j in range(4)] for i in range(4)]
-
-
 def frame(rotation, translation_mm):
     return [list(rotation[i]) + [translation_mm[i] * 1e-3] for i in range(3)] + [[0, 0, 0, 1]]
 
@@ -63,11 +53,11 @@ def pose_of(robot, angles_deg):
         theta = math.radians(joint["theta_sign"] * angle + joint["theta_offset_deg"])
         ca, sa, ct, st = math.cos(alpha), math.sin(alpha), math.cos(theta), math.sin(theta)
         d = joint["d_mm"]
-        now = times(now, frame([[ct, -st, 0], [st * ca, ct * ca, -sa], [st * sa, ct * sa, ca]],
+        now = product(now, frame([[ct, -st, 0], [st * ca, ct * ca, -sa], [st * sa, ct * sa, ca]],
                                [joint["a_mm"], -d * sa, d * ca]))
         axes.append(([now[i][2] for i in range(3)], [now[i][3] for i in range(3)]))
     for part in ("flange", "tool"):
-        now = times(now, frame(robot[part]["rotation"], robot[part]["translation_mm"]))
+        now = product(now, frame(robot[part]["rotation"], robot[part]["translation_mm"]))
     point = [now[i][3] for i in range(3)]
     compliance = [[0.0] * 3 for _ in range(3)]
     for (axis, at), k in zip(axes, STIFFNESS):
@@ -231,5 +221,4 @@ def path(folder):
 with tempfile.TemporaryDirectory() as name_:
     evaluations(pathlib.Path(name_), random.Random(3))
     path(pathlib.Path(name_))
-print(f"{passed} passed, {failed} failed")
-raise SystemExit(failed > 0 or passed == 0)
+finish()

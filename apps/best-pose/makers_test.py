@@ -11,30 +11,19 @@ import os
 import pathlib
 import random
 import subprocess
+import sys
 import tempfile
 
 from jsonschema import Draft202012Validator
 
 SOURCE = pathlib.Path(os.environ["SOURCE"])
+sys.path.insert(0, str(SOURCE / "apps"))
+sys.dont_write_bytecode = True
+from testing import check, finish, product  # noqa: E402
 MILLIMETRES = 1e-6  # documents hold lengths to 1e-9 mm and angles to 1e-9 degrees, which is 5e-8 mm on three metres
 DEGREES = 1e-7
-passed = failed = 0
-
-
-def check(name, holds, what=""):
-    global passed, failed
-    if holds:
-        passed += 1
-    else:
-        failed += 1
-        print(f"FAILED: {name}: {what}")
-
 
 # ---- the chain: 4 x 4 matrices as lists of rows ----
-
-def product(a, b):
-    return [[sum(a[i][k] * b[k][j] for k in range(4)) for j in range(4)] for i in range(4)]
-
 
 def moved(x, y, z):
     return [[1, 0, 0, x], [0, 1, 0, y], [0, 0, 1, z], [0, 0, 0, 1]]
@@ -348,5 +337,4 @@ with tempfile.TemporaryDirectory() as name:
         if maker.name == "FANUC R-2000iC/165F":
             check_coupled_limits(maker, robot_path, k_path, folder)
     check_any_base(folder, k_path)
-print(f"{passed} passed, {failed} failed")
-raise SystemExit(failed > 0 or passed == 0)
+finish()

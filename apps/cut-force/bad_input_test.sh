@@ -37,6 +37,10 @@ refused 64 '^cut-force: --points: expected with --table' cut-force cut.json --po
 refused 64 '^cut-force: --table: expected --points, or --depth and --speed' cut-force cut.json --table "$table"
 jq '.lead_angle_deg = 45' cut.json >inclined.json
 refused 64 '^cut-force: --table: expected a cut without lead_angle_deg' cut-force inclined.json --table "$table" --depth 1 --speed 9000
+refused 64 '^cut-force: --identify: expected a cut without lead_angle_deg' cut-force inclined.json --identify "$data/slot-forces.csv"
+jq '.dofs += ["z"] | .modes[] |= (.psi_r += [.psi_r[0]] | .psi_l += [.psi_l[0]])' "$table" >with-z.json
+jq '.ka_n_per_mm2 = 100' cut.json | cut-force --table with-z.json --depth 0.2 --speed 9000 -o z.json 2>said
+check "z that does not take part is said" grep -q 'with-z.json: /dofs: "z": left out' said
 refused 64 '^cut-force: --passes, --steps, --from-rest: expected with --table' cut-force cut.json --from-rest
 refused 64 '^cut-force: --identify: expected without --depth' cut-force "$tool" --identify "$forces" --depth 1
 refused 64 '^cut-force: --edges: expected with --identify' cut-force cut.json --edges cut

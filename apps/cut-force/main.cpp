@@ -10,6 +10,7 @@
 #include "cli/tool.h"
 #include "document/kinds/cut_force_json.h"
 #include "document/kinds/cut_json.h"
+#include "document/kinds/modal_table_json.h"
 #include "document/text/data_error.h"
 #include "identify.h"
 #include "points.h"
@@ -86,6 +87,12 @@ class CutForce : public cli::Tool {
                    "--passes, --steps, --from-rest: expected with --table only");
   }
 
+  // Neither the simulation nor the separation of plane and axis knows such edges.
+  static void refuse_inclined(const document::CutDocument& cut, const std::string& option) {
+    cli::refuse_if(!cut.cutter.is_upright(),
+                   option + ": expected a cut without lead_angle_deg and corner_radius_mm");
+  }
+
   void compute(const document::Input& input) {
     const document::CutDocument cut = document::cut_from_json(input.document, input.source);
     if (!cut.feed_per_tooth_m)
@@ -100,9 +107,12 @@ class CutForce : public cli::Tool {
     document.speed_rpm = speed_;
     document.harmonics = harmonics_.value_or(kDefaultHarmonics);
     if (!table_path_.empty()) {
-      cli::refuse_if(cut.cutter.lead_rad != kPi / 2 || cut.cutter.corner_radius_m > 0,
-                     "--table: expected a cut without lead_angle_deg and corner_radius_mm");
-      const milling::TipStructure structure = structure_of(read_input(table_path_, cli::InputForm::kJson));
+      refuse_inclined(cut, "--table");
+      const document::Input modes = read_input(table_path_, cli::InputForm::kJson);
+      const dynamics::ModalModel model = document::modal_table_from_json(modes.document, modes.source);
+      const milling::TipStructure structure = document::tip_structure_of(model, modes.source, false);
+      if (cut.cutter.is_axial() && model.dof("z") >= 0)
+        warn(modes.source.name + ": /dofs: \"z\": left out: the simulation moves the tip in x and y only");
       std::vector<document::MeasuredCut> points;
       std::string name = "--depth and --speed";
       if (points_path_.empty()) {
@@ -125,6 +135,7 @@ class CutForce : public cli::Tool {
   void identify(const document::Input& input) {
     const document::CutDocument cut =
         document::cut_from_json(input.document, input.source, document::CoefficientsNeeded::kNone);
+    refuse_inclined(cut, "--identify");
     const document::Input table = read_input(forces_path_, cli::InputForm::kText);
     std::vector<document::MeasuredForceRow> rows = document::measured_forces(table.source, cut);
     const std::filesystem::path folder = std::filesystem::path(forces_path_).parent_path();

@@ -5,23 +5,8 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/units.h"
-#include "document/kinds/modal_table_json.h"
-#include "document/text/data_error.h"
 
 namespace stablecut {
-
-milling::TipStructure structure_of(const document::Input& table) {
-  const dynamics::ModalModel model = document::modal_table_from_json(table.document, table.source);
-  if (model.dof("x") < 0 && model.dof("y") < 0)
-    throw document::DataError(table.source.name, "/dofs", document::Json(model.dofs).dump(),
-                              "expected x, y or both");
-  milling::TipStructure structure = milling::tip_structure(model);
-  if (structure.modes() == 0)
-    throw document::DataError(
-        table.source.name, "/modes", "",
-        "expected at least one mode that a force in x or y drives and that moves x or y");
-  return structure;
-}
 
 std::vector<document::SimulatedPoint> simulated_points(const milling::TipStructure& structure,
                                                        const document::CutDocument& cut,

@@ -16,9 +16,6 @@ struct PointRequest {
   bool from_rest = false;
 };
 
-/// The structure of a modal table. Throws DataError where no force in x or y moves the tip.
-milling::TipStructure structure_of(const document::Input& table);
-
 /// One result for each cut, the same whatever the number of threads. Throws NoAnswer where there is none.
 std::vector<document::SimulatedPoint> simulated_points(const milling::TipStructure& structure,
                                                        const document::CutDocument& cut,

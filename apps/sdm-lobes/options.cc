@@ -4,6 +4,7 @@
 
 #include "base/units.h"
 #include "cli/exit_status.h"
+#include "document/kinds/modal_table_json.h"
 #include "document/text/data_error.h"
 
 namespace stablecut {
@@ -122,16 +123,7 @@ ChartAxes::ChartAxes(const document::LobesDocument& lobes) {
 
 milling::TipStructure structure_of(const dynamics::ModalModel& model, const document::Source& source,
                                    bool is_axial, const std::function<void(const std::string&)>& warn) {
-  if (model.dof("x") < 0 && model.dof("y") < 0) {
-    throw document::DataError(source.name, "/dofs", document::Json(model.dofs).dump(),
-                              "expected x, y or both");
-  }
-  milling::TipStructure structure = milling::tip_structure(model, is_axial);
-  if (structure.modes() == 0) {
-    throw document::DataError(
-        source.name, "/modes", "",
-        "expected at least one mode that a force in x or y drives and that moves x or y");
-  }
+  milling::TipStructure structure = document::tip_structure_of(model, source, is_axial);
   for (const std::string& dof : model.dofs) {
     if (dof != "x" && dof != "y" && !(is_axial && dof == "z"))
       warn(source.name + ": /dofs: \"" + dof + "\": left out: " +

@@ -17,7 +17,6 @@ constexpr double kSettled = 1e-3;      // of the vibration
 constexpr std::size_t kSamples = 200;  // once per tooth
 constexpr int kMostPeriods = 256;      // of the spectrum
 constexpr int kMostPerPeriod = 1024, kLeastPerPeriod = 64;
-constexpr double kAtWall = 1e-9;  // rad
 constexpr double kPush = 0.01;
 constexpr double kFarthest = 0.1;  // m
 
@@ -35,11 +34,10 @@ class Record {
   // Everything from a period on, and the wall from another one on.
   Record(const SimulatedCut& cut, const CuttingLoad& load, long from, long wall_from)
       : cut_(cut), load_(load), from_(from), wall_from_(wall_from) {
-    const Cutter& cutter = cut.cutter();
-    for (const SimulationTouch& touch : cut.grid().touches) {
-      if ((cutter.entry_rad < kAtWall && touch.phi_rad < kAtWall) ||
-          (cutter.exit_rad > kPi - kAtWall && touch.phi_rad > kPi - kAtWall))
-        at_wall_.push_back(touch);
+    for (const double wall : wall_angles(cut.cutter())) {
+      for (const SimulationTouch& touch : cut.grid().touches) {
+        if (std::abs(touch.phi_rad - wall) < kAtWall) at_wall_.push_back(touch);
+      }
     }
     farthest_.assign(2 * cut.grid().depth_m.size(), std::nullopt);
   }
@@ -72,11 +70,13 @@ class Record {
     }
   }
 
-  // The tooth that stands out farthest makes the wall; along the edge the largest error in size.
+  // The tooth that stands out farthest makes the wall, as it would at rest; along the edge the largest error
+  // in size.
   std::optional<double> location_error_m() const {
+    const double at_rest = load_.runout_m.empty() ? 0 : std::ranges::max(load_.runout_m);
     std::optional<double> error;
     for (const std::optional<double>& out : farthest_) {
-      if (out && (!error || std::abs(*out) > std::abs(*error))) error = -*out;
+      if (out && (!error || std::abs(at_rest - *out) > std::abs(*error))) error = at_rest - *out;
     }
     return error;
   }

@@ -105,6 +105,30 @@ TEST_CASE("the simulated motion settles where the cut is stable, and nowhere els
   CHECK(agree >= 0.99 * far);
 }
 
+TEST_CASE("where teeth differ the simulation leaves what the periodic solution says") {
+  const TipStructure structure = tip_structure(fixtures::coupled_modes(4, 8));
+  for (const bool runout : {false, true}) {
+    Cutter cutter = fixtures::benchmark_cutter(false, 0.3, 3);
+    cutter.diameter_m = 12e-3;
+    CuttingLoad load{0.1e-3, 0, 0, 0, {}};
+    if (runout)
+      load.runout_m = {4e-6, -3e-6, -1e-6};
+    else
+      cutter.pitch_rad = {2, 2.2, kTwoPi - 4.2};
+    constexpr double kDepth = 0.02e-3;
+    const SurfacePoint surface = SurfaceAtSpeed(structure, cutter, load, 90, 30).at(kDepth);
+    const SimulationResult result = simulate_cut(structure, cutter, load, {90, kDepth, {}, 1600, false});
+    REQUIRE(result.settled);
+    INFO((runout ? "runout" : "unequal pitch"));
+    // Vibration is small beside the chip, and there are no edge forces, which would jump where it ends
+    // contact.
+    const double tolerance = 1e-3 * (surface.peak_vibration_m + surface.mean_deflection_m.norm());
+    CHECK(std::abs(*result.location_error_m - *surface.location_error_m) < tolerance);
+    CHECK(std::abs(result.peak_vibration_m - surface.peak_vibration_m) < tolerance);
+    CHECK((result.mean_deflection_m - surface.mean_deflection_m).norm() < tolerance);
+  }
+}
+
 TEST_CASE("15 modes: what the simulation leaves is what the forced vibration says") {
   for (const auto& [up, immersion, speed] :
        {std::tuple{true, 0.25, 75.0}, std::tuple{false, 0.4, 160.0}, std::tuple{false, 0.1, 110.0}}) {

@@ -15,7 +15,6 @@ namespace {
 // Ends of pieces closer than this are one: an entry and an exit fall together when a whole number of pitches
 // is in cut, as in slotting with an even number of teeth. Radians.
 constexpr double kSameAngle = 1e-12;
-constexpr double kAtWall = 1e-9;  // rad
 
 // Force per depth along the cut, inwards and along the axis: of a displacement outwards, and of one along the
 // axis. N/m2, or of process damping N s/m2.
@@ -300,7 +299,7 @@ EdgeMeans edge_means(const Cutter& cutter, double depth_m) {
   const double radius = cutter.corner_radius_m;
   if (radius == 0) return at(cutter.lead_rad);
   // On the corner kappa grows from 0 at the tip, where the height is radius (1 - cos kappa).
-  const double top = std::acos(std::clamp(1 - depth_m / radius, -1.0, 1.0));
+  const double top = 2 * std::asin(std::sqrt(std::min(depth_m / (2 * radius), 1.0)));
   const double kappa = std::min(cutter.lead_rad, top);
   const double height = 2 * radius * std::sin(kappa / 2) * std::sin(kappa / 2);
   const double s = std::sin(kappa), c = std::cos(kappa);

@@ -39,11 +39,15 @@ struct Cutter {
   double corner_radius_m = 0;
 
   bool equal_pitch() const { return pitch_rad.empty(); }
+  /// Whether the edge is parallel to the axis (or winds round it), all of it.
+  bool is_upright() const { return lead_rad == kPi / 2 && corner_radius_m == 0; }
   /// Whether a motion along the axis, or a force along it, takes part.
-  bool is_axial() const { return ka_n_per_m2 != 0 || lead_rad != kPi / 2 || corner_radius_m > 0; }
+  bool is_axial() const { return ka_n_per_m2 != 0 || !is_upright(); }
   /// Whether coefficients per depth depend on the depth.
   bool changes_with_depth() const { return lag_rad_per_m != 0 || corner_radius_m > 0; }
   double mean_pitch_rad() const;
+  /// From a tooth (index) to the one that follows it through the cut.
+  double pitch_after(int tooth) const { return equal_pitch() ? mean_pitch_rad() : pitch_rad[tooth]; }
   /// T = 60 / (N Omega), s: of the mean pitch.
   double tooth_period_s(double revolutions_per_s) const;
 };
@@ -52,6 +56,8 @@ struct Cutter {
 /// from acos(2 ae/D - 1) to pi.
 void set_immersion(Cutter& cutter, bool up_milling, double radial_immersion);
 
+/// An angle this near to that of a wall is at it, rad.
+inline constexpr double kAtWall = 1e-9;
 /// The walls that a cut leaves, by the angle at which a tooth touches one: 0 on the side of the cut frame's
 /// +Y where teeth enter there (up milling), pi on that of -Y where they leave there (down milling).
 std::vector<double> wall_angles(const Cutter& cutter);

@@ -74,15 +74,14 @@ Harmonics harmonics_of(const Cutter& cutter, const CuttingLoad& load, const Edge
 std::vector<ChipLine> left_before(const Cutter& cutter, const CuttingLoad& load, int index) {
   const double feed_per_rad = load.feed_per_tooth_m * cutter.teeth / kTwoPi;
   if (load.runout_m.empty()) {
-    const double pitch = cutter.equal_pitch() ? kTwoPi / cutter.teeth
-                                              : cutter.pitch_rad[(index + cutter.teeth - 1) % cutter.teeth];
+    const double pitch = cutter.pitch_after((index + cutter.teeth - 1) % cutter.teeth);
     return {{feed_per_rad * pitch, 0, 0, 1, pitch}};
   }
   std::vector<ChipLine> left_by;
   double angle = 0;
   for (int m = 1; m <= cutter.teeth; ++m) {
     const int other = (index + cutter.teeth - m) % cutter.teeth;
-    angle += cutter.equal_pitch() ? kTwoPi / cutter.teeth : cutter.pitch_rad[other];
+    angle += cutter.pitch_after(other);
     left_by.push_back({feed_per_rad * angle, load.runout_m[index] - load.runout_m[other], 0, 1, angle});
   }
   return left_by;
@@ -99,17 +98,20 @@ void add_bite(const Cutter& cutter, const ChipLine& chip, double from, double to
   if (bite.entry_rad < bite.exit_rad) all.push_back(bite);
 }
 
-// Whether every tooth cuts as the one before it does.
-bool alike(const Cutter& cutter, const CuttingLoad& load) {
+}  // namespace
+
+bool cuts_alike(const Cutter& cutter, const CuttingLoad& load) {
   return cutter.equal_pitch() && load.runout_m.empty();
 }
 
-}  // namespace
+double force_period_rad(const Cutter& cutter, const CuttingLoad& load) {
+  return cuts_alike(cutter, load) ? cutter.mean_pitch_rad() : kTwoPi;
+}
 
 std::vector<Bite> bites(const Cutter& cutter, const CuttingLoad& load) {
   std::vector<Bite> all;
   double behind = 0;
-  for (int tooth = 0; tooth < (alike(cutter, load) ? 1 : cutter.teeth); ++tooth) {
+  for (int tooth = 0; tooth < (cuts_alike(cutter, load) ? 1 : cutter.teeth); ++tooth) {
     Bite bite;
     bite.tooth = tooth;
     bite.behind_rad = behind;
@@ -122,7 +124,7 @@ std::vector<Bite> bites(const Cutter& cutter, const CuttingLoad& load) {
         add_bite(cutter, chip, from, kPi - from, bite, all);
       }
     }
-    behind += cutter.equal_pitch() ? kTwoPi / cutter.teeth : cutter.pitch_rad[tooth];
+    behind += cutter.pitch_after(tooth);
   }
   return all;
 }
@@ -130,7 +132,7 @@ std::vector<Bite> bites(const Cutter& cutter, const CuttingLoad& load) {
 ForceCycle force_cycle(const Cutter& cutter, const CuttingLoad& load, double depth_m) {
   const EdgeMeans edge = edge_means(cutter, depth_m);
   ForceCycle cycle;
-  cycle.period_rad = alike(cutter, load) ? kTwoPi / cutter.teeth : kTwoPi;
+  cycle.period_rad = force_period_rad(cutter, load);
   for (const Bite& bite : bites(cutter, load)) {
     TurningArc<4> arc{bite.entry_rad + bite.behind_rad, bite.exit_rad + bite.behind_rad,
                       harmonics_of(cutter, load, edge, bite)};

@@ -32,6 +32,11 @@ struct ForceCycle {
   ForceParts mean() const { return integral_to(arcs, period_rad, period_rad) / period_rad; }
 };
 
+/// Whether every tooth cuts as the one before it does, but for vibration.
+bool cuts_alike(const Cutter& cutter, const CuttingLoad& load);
+/// After which the force of the mean chip repeats: the pitch, or the revolution where teeth differ.
+double force_period_rad(const Cutter& cutter, const CuttingLoad& load);
+
 /// A part of a tooth's way through the cut on which one tooth before it has left the surface: its mean chip
 /// thickness there is slope * sin(phi) + offset.
 struct Bite {

@@ -12,8 +12,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kInside = 1e-9;  // rad: from where the force jumps
-constexpr int kLooks = 24;        // between two such places
+constexpr double kSameBreak = 1e-9;  // rad
+constexpr int kLooks = 24;           // between two such places
 constexpr int kNarrowings = 40;
 
 // The integral of exp(i k turn) over an arc.
@@ -27,13 +27,41 @@ Complex wave_integral(double k, double from, double to) {
 EdgeForce::EdgeForce(const Cutter& cutter, const CuttingLoad& load, double depth_m)
     : cycle_(force_cycle(cutter, load, depth_m)),
       depth_m_(depth_m),
-      lag_rad_(cutter.lag_rad_per_m * depth_m) {}
+      lag_rad_(cutter.lag_rad_per_m * depth_m) {
+  if (std::abs(lag_rad_) < kStraight) lag_rad_ = 0;
+  for (const TurningArc<4>& arc : cycle_.arcs) {
+    for (const double end : {arc.from_rad, arc.to_rad}) {
+      breaks_.push_back(in_period(end));
+      if (lag_rad_ != 0) breaks_.push_back(in_period(end + lag_rad_));
+    }
+  }
+  std::sort(breaks_.begin(), breaks_.end());
+  const auto same = [](double a, double b) { return b - a <= kSameBreak; };
+  breaks_.erase(std::unique(breaks_.begin(), breaks_.end(), same), breaks_.end());
+}
 
-ForceParts EdgeForce::at(double turn_rad) const {
-  if (std::abs(lag_rad_) < kStraight) return depth_m_ * sum_at(cycle_.arcs, cycle_.period_rad, turn_rad);
-  return depth_m_ / lag_rad_ *
-         (integral_to(cycle_.arcs, cycle_.period_rad, turn_rad) -
-          integral_to(cycle_.arcs, cycle_.period_rad, turn_rad - lag_rad_));
+double EdgeForce::in_period(double turn_rad) const {
+  const double inside = turn_rad - cycle_.period_rad * std::floor(turn_rad / cycle_.period_rad);
+  return cycle_.period_rad - inside <= kSameBreak ? 0 : inside;
+}
+
+double EdgeForce::room(double turn_rad, bool after) const {
+  double least = cycle_.period_rad;
+  for (const double other : breaks_) {
+    const double distance = in_period(after ? other - turn_rad : turn_rad - other);
+    if (distance > kSameBreak) least = std::min(least, distance);
+  }
+  return least;
+}
+
+ForceParts EdgeForce::at(double turn_rad, double beside_rad) const {
+  const double period = cycle_.period_rad;
+  if (lag_rad_ != 0) {
+    return depth_m_ / lag_rad_ *
+           (integral_to(cycle_.arcs, period, turn_rad) -
+            integral_to(cycle_.arcs, period, turn_rad - lag_rad_));
+  }
+  return depth_m_ * sum_at(cycle_.arcs, period, turn_rad, beside_rad);
 }
 
 Eigen::Matrix<Complex, 4, 1> EdgeForce::harmonic(int order) const {
@@ -47,23 +75,14 @@ Eigen::Matrix<Complex, 4, 1> EdgeForce::harmonic(int order) const {
   }
   sum *= depth_m_ / cycle_.period_rad;
   // The mean over the lags of a helical edge.
-  if (std::abs(lag_rad_) >= kStraight) sum *= wave_integral(-k, 0, lag_rad_) / lag_rad_;
+  if (lag_rad_ != 0) sum *= wave_integral(-k, 0, lag_rad_) / lag_rad_;
   return sum;
 }
 
 EdgeForce::Peak EdgeForce::peak() const {
-  std::vector<double> ends;
-  for (const TurningArc<4>& arc : cycle_.arcs) {
-    for (const double end : {arc.from_rad, arc.to_rad}) {
-      for (const double lag : {0.0, lag_rad_}) {
-        const double turn = end + lag;
-        ends.push_back(turn - cycle_.period_rad * std::floor(turn / cycle_.period_rad));
-      }
-    }
-  }
-  std::sort(ends.begin(), ends.end());
   Peak peak;
-  if (ends.empty()) return peak;
+  if (breaks_.empty()) return peak;
+  std::vector<double> ends = breaks_;
   ends.push_back(ends.front() + cycle_.period_rad);
   struct Look {
     double turn, value;
@@ -71,9 +90,8 @@ EdgeForce::Peak EdgeForce::peak() const {
   const auto largest = [&](const auto& value) {
     Look best{0, -1};
     for (std::size_t e = 0; e + 1 < ends.size(); ++e) {
-      const double from = ends[e] + kInside, to = ends[e + 1] - kInside;
-      if (!(from < to)) continue;
-      const auto look = [&](double turn) { return Look{turn, value(at(turn))}; };
+      const double from = ends[e], to = ends[e + 1], beside = (from + to) / 2;
+      const auto look = [&](double turn) { return Look{turn, value(at(turn, beside))}; };
       const double step = (to - from) / kLooks;
       Look top{from, -1};
       for (int i = 0; i <= kLooks; ++i) {

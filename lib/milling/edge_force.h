@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <vector>
 
 #include "milling/cutting_force.h"
 
@@ -16,7 +17,15 @@ class EdgeForce {
 
   double period_rad() const { return cycle_.period_rad; }
   /// N, at a turn; where a straight tooth enters or leaves, after it.
-  ForceParts at(double turn_rad) const;
+  ForceParts at(double turn_rad) const { return at(turn_rad, turn_rad); }
+  /// The same as it is on the side of `beside_rad`, with no break in between: straight teeth jump into cut.
+  ForceParts at(double turn_rad, double beside_rad) const;
+  /// Turns of a period at which any part of an edge begins or ends to cut, each once, in order.
+  const std::vector<double>& breaks() const { return breaks_; }
+  /// How far it is from a turn to the next break, or back to the one before; a period where there is none.
+  double room(double turn_rad, bool after) const;
+  /// By how much the top of the edge lags; 0 for a straight one.
+  double lag_rad() const { return lag_rad_; }
   ForceParts mean() const { return depth_m_ * cycle_.mean(); }
   /// Coefficient of exp(i order 2 pi turn / period) in the force's Fourier series.
   Eigen::Matrix<std::complex<double>, 4, 1> harmonic(int order) const;
@@ -27,8 +36,11 @@ class EdgeForce {
   Peak peak() const;
 
  private:
+  double in_period(double turn_rad) const;
+
   ForceCycle cycle_;
-  double depth_m_, lag_rad_;  // at the top of the edge
+  double depth_m_, lag_rad_;
+  std::vector<double> breaks_;
 };
 
 }  // namespace stablecut::milling

@@ -1,11 +1,11 @@
 #include "milling/simulated_cut.h"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
 #include <complex>
 
 #include "base/units.h"
+#include "milling/forced_vibration.h"
 
 namespace stablecut::milling {
 namespace {
@@ -40,10 +40,9 @@ SimulatedCut::SimulatedCut(const TipStructure& structure, const Cutter& cutter, 
       turn_per_s_(kTwoPi * revolutions_per_s),
       feed_per_revolution_m_(load.feed_per_tooth_m * cutter.teeth * (1 + kGrazing)),
       rate_(structure.lambda) {
-  const Eigen::Matrix2d feed = Eigen::Rotation2Dd(cutter.feed_angle_rad).toRotationMatrix();
-  const Eigen::MatrixXd into_cut = feed.transpose()(Eigen::all, structure.axes);
-  shape_ = into_cut * structure.psi_r;
-  left_ = into_cut * structure.psi_l;
+  const ModesInCut modes = modes_in_cut(structure, cutter, revolutions_per_s);
+  shape_ = modes.shape.topRows<2>();
+  left_ = turn_per_s_ * modes.drive.topRows<2>();
   jump_ = 2 * (shape_ * left_.transpose()).real();
   if (cutter.damping_n_per_m > 0)
     flank_n_s_per_m2_ = cutter.damping_n_per_m / (kPi * cutter.diameter_m * revolutions_per_s);

@@ -35,7 +35,7 @@ class StateVector {
     v.head(modes) = scale_m_ * state.modes.real();
     v.segment(modes, modes) = scale_m_ * state.modes.imag();
     Eigen::Index at = 2 * modes;
-    for (const std::vector<double>* part : parts(state)) {
+    for (const auto* part : parts(state)) {
       v.segment(at, part->size()) = Eigen::Map<const Eigen::VectorXd>(part->data(), part->size());
       at += part->size();
     }
@@ -46,15 +46,16 @@ class StateVector {
     state.modes.real() = v.head(modes) / scale_m_;
     state.modes.imag() = v.segment(modes, modes) / scale_m_;
     Eigen::Index at = 2 * modes;
-    for (const std::vector<double>* part : parts(state)) {
-      Eigen::Map<Eigen::VectorXd>(const_cast<double*>(part->data()), part->size()) =
-          v.segment(at, part->size());
+    for (auto* part : parts(state)) {
+      Eigen::Map<Eigen::VectorXd>(part->data(), part->size()) = v.segment(at, part->size());
       at += part->size();
     }
   }
 
  private:
-  std::vector<const std::vector<double>*> parts(const SimulatedCut::State& state) const {
+  // Of a state, or of one that may be changed.
+  template <typename State>
+  auto parts(State& state) const -> std::vector<decltype(&state.surface)> {
     if (!with_passing_) return {&state.surface};
     return {&state.surface, &state.passing, &state.one_back, &state.two_back};
   }

@@ -16,7 +16,7 @@ constexpr int kRead = 4;               // numbers of the surface that a value is
 
 double place_of(const Cutter& cutter, int tooth) {
   double place = 0;
-  for (int j = 0; j < tooth; ++j) place += cutter.pitch_rad[j];
+  for (int j = 0; j < tooth; ++j) place += cutter.pitch_after(j);
   return place;
 }
 

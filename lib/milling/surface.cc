@@ -14,7 +14,6 @@ namespace {
 
 constexpr double kSamplesPerWave = 12;  // of the fastest mode, and of twice the spindle's turn
 constexpr int kLeastSamples = 48, kMostSamples = 4096;
-constexpr double kAtWall = 1e-9;  // rad
 // The depth at which the surface's error becomes too large: steps up to it, and halvings of the one that it
 // is in.
 constexpr int kDepthSteps = 16, kHalvings = 10;
@@ -38,14 +37,6 @@ double summit(const Eigen::VectorXd& values) {
   return bend > 0 ? at + (after - before) * (after - before) / (8 * bend) : at;
 }
 
-// The walls that a cut leaves: the angle of a tooth that touches one.
-std::vector<double> walls_of(const Cutter& cutter) {
-  std::vector<double> walls;
-  if (cutter.entry_rad < kAtWall) walls.push_back(0);
-  if (cutter.exit_rad > kPi - kAtWall) walls.push_back(kPi);
-  return walls;
-}
-
 SurfacePoint scaled(SurfacePoint point, double depth_m) {
   if (point.location_error_m) *point.location_error_m *= depth_m;
   if (point.error_with_offset_m) *point.error_with_offset_m *= depth_m;
@@ -57,11 +48,7 @@ SurfacePoint scaled(SurfacePoint point, double depth_m) {
 
 // Whether vibration leaves the chip as it is: every tooth leaves the same surface, and none rubs.
 bool leaves_equal_chips(const Cutter& cutter, const CuttingLoad& load) {
-  return cutter.equal_pitch() && load.runout_m.empty() && cutter.damping_n_per_m == 0;
-}
-
-double period_of(const Cutter& cutter, const CuttingLoad& load) {
-  return cutter.equal_pitch() && load.runout_m.empty() ? cutter.mean_pitch_rad() : kTwoPi;
+  return cuts_alike(cutter, load) && cutter.damping_n_per_m == 0;
 }
 
 // Of the mean force per depth, in the cut's frame.
@@ -101,7 +88,7 @@ SurfaceAtSpeed::SurfaceAtSpeed(const TipStructure& structure, const Cutter& cutt
       revolutions_per_s_(revolutions_per_s),
       resolution_(resolution),
       added_compliance_(added_compliance),
-      samples_(samples_of(structure, revolutions_per_s, period_of(cutter, load))) {}
+      samples_(samples_of(structure, revolutions_per_s, force_period_rad(cutter, load))) {}
 
 // The force per depth is that of every depth but where the edge has a corner.
 void SurfaceAtSpeed::set_depth(double depth_m) {
@@ -113,18 +100,19 @@ void SurfaceAtSpeed::set_depth(double depth_m) {
 }
 
 std::vector<SurfaceAtSpeed::Passage> SurfaceAtSpeed::passages(double depth_m) const {
-  const bool one_for_all = cutter_.equal_pitch() && load_.runout_m.empty();
+  const int teeth = cuts_alike(cutter_, load_) ? 1 : cutter_.teeth;
   const double lag = cutter_.lag_rad_per_m * depth_m;
   const int steps =
-      lag == 0 ? 0 : 1 + static_cast<int>(std::ceil(samples_ * std::abs(lag) / period_of(cutter_, load_)));
+      lag == 0 ? 0
+               : 1 + static_cast<int>(std::ceil(samples_ * std::abs(lag) / force_period_rad(cutter_, load_)));
   std::vector<Passage> result;
-  for (const double wall : walls_of(cutter_)) {
+  for (const double wall : wall_angles(cutter_)) {
     for (int i = 0; i <= steps; ++i) {
       // The edge at a height passes the wall after its tip.
       double turn = wall + (steps > 0 ? lag * i / steps : 0);
-      for (int tooth = 0; tooth < (one_for_all ? 1 : cutter_.teeth); ++tooth) {
+      for (int tooth = 0; tooth < teeth; ++tooth) {
         result.push_back({wall, turn, load_.runout_m.empty() ? 0 : load_.runout_m[tooth], i});
-        turn += cutter_.equal_pitch() ? kTwoPi / cutter_.teeth : cutter_.pitch_rad[tooth];
+        turn += cutter_.pitch_after(tooth);
       }
     }
   }
@@ -150,7 +138,7 @@ Eigen::Matrix3Xd SurfaceAtSpeed::displacements(double depth_m, const std::vector
   }
   if (!regenerative_ || cutter_.changes_with_depth()) {
     std::vector<double> turns;
-    for (int i = 0; i < samples_; ++i) turns.push_back(i * period_of(cutter_, load_) / samples_);
+    for (int i = 0; i < samples_; ++i) turns.push_back(i * force_period_rad(cutter_, load_) / samples_);
     for (const Passage& passage : passages) turns.push_back(passage.turn_rad);
     regenerative_.emplace(structure_, cutter_, load_, *forced_, revolutions_per_s_, depth_m,
                           points_per_rad(depth_m), turns);
@@ -162,7 +150,7 @@ SurfacePoint SurfaceAtSpeed::at(double depth_m) {
   const bool in_proportion = leaves_equal_chips(cutter_, load_) && !cutter_.changes_with_depth();
   if (in_proportion && per_depth_) return scaled(*per_depth_, depth_m);
   if (depth_m == 0) {
-    const auto nothing = walls_of(cutter_).empty() ? std::nullopt : std::optional(0.0);
+    const auto nothing = wall_angles(cutter_).empty() ? std::nullopt : std::optional(0.0);
     return {nothing, nothing};
   }
 

@@ -49,17 +49,24 @@ inline double last_passed(double place_rad, double period_rad, double turn_rad) 
   return std::floor((turn_rad - place_rad) / period_rad);
 }
 
-/// The sum over the arcs, each repeated every `period_rad`, at a turn.
+/// The sum over the arcs, each repeated every `period_rad`, at a turn; where arcs begin or end there, those
+/// that are under way at `beside_rad`.
 template <int kRows>
 Eigen::Matrix<double, kRows, 1> sum_at(const std::vector<TurningArc<kRows>>& arcs, double period_rad,
-                                       double turn_rad) {
+                                       double turn_rad, double beside_rad) {
   Eigen::Matrix<double, kRows, 1> sum = Eigen::Matrix<double, kRows, 1>::Zero();
   for (const auto& arc : arcs) {
-    const double last = last_passed(arc.from_rad, period_rad, turn_rad);
-    for (double copy = last_passed(arc.to_rad, period_rad, turn_rad) + 1; copy <= last; ++copy)
+    const double last = last_passed(arc.from_rad, period_rad, beside_rad);
+    for (double copy = last_passed(arc.to_rad, period_rad, beside_rad) + 1; copy <= last; ++copy)
       sum += arc.at(turn_rad - copy * period_rad);
   }
   return sum;
+}
+/// After what begins or ends there.
+template <int kRows>
+Eigen::Matrix<double, kRows, 1> sum_at(const std::vector<TurningArc<kRows>>& arcs, double period_rad,
+                                       double turn_rad) {
+  return sum_at(arcs, period_rad, turn_rad, turn_rad);
 }
 
 /// Its integral from turn 0 to any turn, of either sign.

@@ -120,16 +120,17 @@ WhatToRun what_to_run(const std::vector<TipStructure>& structures, const Cutter&
     std::sort(what.between.begin(), what.between.end(), by_speed);
   }
   what.limits = limits_of(request, cutter, curve.largest_depth_m);
+  OperatingLimits limits = what.limits;
   const auto surface_at = [&](double speed) {
     return SurfaceAtSpeed(structures.front(), cutter, *request.load, speed, resolution_at(curve, speed),
                           request.surface->added_compliance);
   };
   if (request.surface && request.surface->largest_error_m) {
-    what.limits.allowed_depth = [&](double speed, double depth_m) {
+    limits.allowed_depth = [&](double speed, double depth_m) {
       return surface_at(speed).deepest_within(*request.surface->largest_error_m, depth_m);
     };
   }
-  what.best = best_points(all, what.limits, request.count, limit_at, threads);
+  what.best = best_points(all, limits, request.count, limit_at, threads);
   if (request.load) {
     for (const OperatingPoint& point : what.best)
       what.rates.push_back(cut_rate(cutter, *request.load, point.revolutions_per_s, point.depth_m));
@@ -138,7 +139,6 @@ WhatToRun what_to_run(const std::vector<TipStructure>& structures, const Cutter&
     for (const OperatingPoint& point : what.best)
       what.surfaces.push_back(surface_at(point.revolutions_per_s).at(point.depth_m));
   }
-  what.limits.allowed_depth = {};  // what it refers to ends here
   return what;
 }
 

@@ -37,22 +37,22 @@ ForceLoad turned(ForceLoad load, const Eigen::Matrix3d& turn);
 /// One way to judge how stiff a pose is, from the compliance C_tt of the tool point, the directions of the
 /// tool's axes and perhaps a force. A score is above 0, in SI units.
 struct StiffnessIndex {
-  const char* name;        ///< in options and documents
-  const char* meaning;     ///< for a help text
-  const char* unit;        ///< of the score in a document
-  double units_per_score;  ///< of that unit in one SI unit of the score
+  const char* name;            ///< in options and documents
+  const char* meaning;         ///< for a help text
+  const char* unit;            ///< of the score in a document
+  double units_per_score = 1;  ///< of that unit in one SI unit of the score
 
   bool larger_is_better;
-  bool needs_force;  ///< the score is that of the task's force
-  bool needs_cut;    ///< and that is a cut's
+  bool needs_force = false;  ///< the score is that of the task's force
+  bool needs_cut = false;    ///< and that is a cut's
   /// The score changes when the tool turns about its own z axis while the compliance stays. (A force that is
   /// given in the tool's frame is looked after by StiffnessTask.)
-  bool feels_tool_turn;
+  bool feels_tool_turn = false;
   /// The tool's axes along which the index takes a stiffness. Where the arm cannot yield along one of them
   /// that stiffness is infinite and the pose has no score.
-  std::array<bool, 3> along;
+  std::array<bool, 3> along{};
   /// The score is the largest eigenvalue's: not smooth where the two largest principal compliances are equal.
-  bool has_ridge;
+  bool has_ridge = false;
 
   /// The score: `compliance` m/N, `tool` with the tool's axes as columns and `force` N, all in one frame.
   double (*score)(const Eigen::Matrix3d& compliance, const Eigen::Matrix3d& tool, const ForceLoad& load);

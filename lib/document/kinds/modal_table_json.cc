@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "document/kinds/frf_json.h"
+#include "document/text/data_error.h"
 #include "document/text/node.h"
 
 namespace stablecut::document {
@@ -144,6 +145,17 @@ dynamics::ModalModel modal_table_from_json(const Json& document, const Source& s
       model.covariance = covariance_from(*covariance, model, sign);
   }
   return model;
+}
+
+milling::TipStructure tip_structure_of(const dynamics::ModalModel& model, const Source& source,
+                                       bool is_axial) {
+  if (model.dof("x") < 0 && model.dof("y") < 0)
+    throw DataError(source.name, "/dofs", Json(model.dofs).dump(), "expected x, y or both");
+  milling::TipStructure structure = milling::tip_structure(model, is_axial);
+  if (structure.modes() == 0)
+    throw DataError(source.name, "/modes", "",
+                    "expected at least one mode that a force in x or y drives and that moves x or y");
+  return structure;
 }
 
 Json modal_table_to_json(const dynamics::ModalModel& model) {
