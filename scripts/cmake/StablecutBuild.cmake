@@ -74,10 +74,12 @@ function(stablecut_room name)
 endfunction()
 
 # stablecut_tool(NAME [SOURCES more.cc ...] LINK libraries): the executable of apps/NAME, from its main.cpp.
+add_custom_target(tools)
 function(stablecut_tool name)
   cmake_parse_arguments(TOOL "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} main.cpp ${TOOL_SOURCES})
   target_link_libraries(${name} PRIVATE stablecut_settings stablecut_cli ${TOOL_LINK})
+  add_dependencies(tools ${name})
   install(TARGETS ${name})
   install(FILES ${name}.1 TYPE MAN RENAME man1/${name}.1)
 endfunction()
