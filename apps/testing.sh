@@ -49,7 +49,14 @@ same_for_every_tool() {
   "$tool" --print-schema >.schema
   check_jq "$tool --print-schema is $kind" .schema '.properties.format.const == "stablecut/'"$kind"'/1"'
   refused 64 "^$tool: --print-schema: nonsense: expected one of .*$kind" "$tool" --print-schema nonsense
-  refused 64 "^$tool: .*--nonsense" "$tool" --nonsense
+  refused 64 "^$tool: --nonsense: unknown option" "$tool" --nonsense
+  refused 64 "^$tool: --thraeds: unknown option: expected --threads" "$tool" --thraeds 2
+  for shell in bash zsh; do "$tool" --print-completion $shell >.completion-$shell; done
+  check "$tool: bash completes its options" test "$(bash -c '. ./.completion-bash
+    COMP_WORDS=('"$tool"' --no-prov) COMP_CWORD=1; _'"${tool//-/_}"'; echo "${COMPREPLY[*]}"')" = --no-provenance
+  # Only those who have a zsh can see more.
+  check "$tool: zsh is told of every option" test "$(grep -oE -- "'\*--[a-z0-9-]+" .completion-zsh | cut -c3- | sort -u)" = \
+    "$("$tool" --help | grep -oE -- "^ +(-., ?)?--[a-z0-9-]+" | grep -oE -- "--[a-z0-9-]+" | sort -u)"
   refused 64 "^$tool: --threads: 0: expected" "$tool" --threads 0
   refused 64 "^$tool: .*expected" "$tool" --threads x
   refused 66 "^$tool: missing.json: cannot be read" "$tool" missing.json "${@:3}"

@@ -1,8 +1,10 @@
 #include "cut_options.h"
 
+#include "base/number_text.h"
 #include "base/units.h"
 #include "cli/exit_status.h"
 #include "document/kinds/cut_json.h"
+#include "document/text/data_error.h"
 #include "milling/turning_force.h"
 
 namespace stablecut {
@@ -45,8 +47,9 @@ void take_cut(const document::Input& input, const CutOptions& options, robot::St
   cli::refuse_if(!cut.feed_per_tooth_m, "--cut: expected feed_per_tooth_mm and diameter_mm in the cut");
   const double depth_m = metres_from_mm(*options.depth_mm);
   const robot::CutLoad load = load_of(milling::turning_force(cut.cutter, cut.load, depth_m), depth_m);
-  cli::refuse_if(!(load.peak_n() > 0 && load.peak_n() < kLargestForce),
-                 "--cut: expected a cut whose force is above 0 and below 1e9 N");
+  if (!(load.peak_n() > 0 && load.peak_n() < kLargestForce))
+    throw document::DataError(input.source.name, "/", number_text(load.peak_n()) + " N",
+                              "expected a cut whose force is above 0 and below 1e9 N");
   task.cut = std::make_shared<robot::CutLoad>(load);
   if (options.feed) task.feed = Eigen::Vector3d(options.feed->data()).stableNormalized();
 }

@@ -93,5 +93,5 @@ refused 65 '^best-pose: bad.json: /teeth: 0: expected' best-pose --robot "$robot
 refused 65 '^best-pose: k2d.json: /format: .*expected "stablecut/cut/1"' best-pose --robot "$robot" --height 1200 --cut k2d.json --cut-depth 1 --feed 0,1,0 k2d.json
 refused 66 '^best-pose: none.json: cannot be read' best-pose --robot "$robot" --height 1200 --cut none.json --cut-depth 1 --feed 0,1,0 k2d.json
 jq '.kt_n_per_mm2 = 1e12' cut.json >hard.json
-refused 64 '^best-pose: --cut: expected a cut whose force is above 0 and below 1e9 N' best-pose --robot "$robot" --height 1200 --cut hard.json --cut-depth 1 --feed 0,1,0 k2d.json
+refused 65 '^best-pose: hard.json: /: .* N: expected a cut whose force is above 0 and below 1e9 N' best-pose --robot "$robot" --height 1200 --cut hard.json --cut-depth 1 --feed 0,1,0 k2d.json
 check "nothing was written" test ! -e o.csv

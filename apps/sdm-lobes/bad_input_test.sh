@@ -26,6 +26,7 @@ cut_with '.chart.speed_rpm.to = 10' '/chart/speed_rpm/to: 10: expected a number 
 cut_with '.kt_n_per_mm = 1' '/kt_n_per_mm: unknown field: expected kt_n_per_mm2'
 cut_with '.theeth = 2' '/theeth: unknown field: expected teeth'
 cut_with '.helix_deg = 30 | del(.diameter_mm)' '/helix_deg: 30: expected diameter_mm'
+cut_with '.diameter_mm = 1e5' '/diameter_mm: 100000.*: expected a diameter above 0, of at most 10000 mm'
 cut_with '.helix_deg = 90' '/helix_deg: 90: expected a helix angle'
 cut_with '.helix_deg = 89.9999' '/helix_deg: 89.9999: expected an edge that turns by less'
 cut_with '.pitch_deg = [120, 120, 120]' '/pitch_deg: .*expected 2 angles'
@@ -35,8 +36,10 @@ cut_with '.feed_per_tooth_mm = 0' '/feed_per_tooth_mm: 0: expected a number abov
 cut_with '.kt_std_n_per_mm2 = -1' '/kt_std_n_per_mm2: -1: expected a number not below 0'
 cut_with '.pitch_deg = [170, 100]' '/pitch_deg: .*expected angles that sum to 360'
 cut_with '.format = "stablecut/cut/2"' '/format: "stablecut/cut/2": expected "stablecut/cut/1"'
-jq '.x_note = "free" | .remark = 1' "$cut" >cut.json
-check "other fields are free" sdm-lobes --cut cut.json "$table" --speed 9000:9000:1 --depth 1:1:1 -o free.json
+cut_with '.remark = 1' '/remark: unknown field: expected chart '
+cut_with '.hleix_deg = 1' '/hleix_deg: unknown field: expected helix_deg '
+jq '.x_note = "free"' "$cut" >cut.json
+check "fields of the user's own" sdm-lobes --cut cut.json "$table" --speed 9000:9000:1 --depth 1:1:1 -o free.json
 
 # table_with FILTER PLACE: the same for the modal table.
 table_with() {

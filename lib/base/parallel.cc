@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -44,7 +45,11 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
 
   const std::size_t helpers = std::min<std::size_t>(count, std::max(threads, 1));
   std::vector<std::jthread> pool;
-  for (std::size_t k = 1; k < helpers; ++k) pool.emplace_back(worker);
+  try {
+    for (std::size_t k = 1; k < helpers; ++k) pool.emplace_back(worker);
+  } catch (const std::system_error&) {
+    // As many as the system gives: what they work out is the same.
+  }
   worker();
   pool.clear();  // joins
   if (progress && count > 0) show();

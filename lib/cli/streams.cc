@@ -9,8 +9,15 @@
 #include <cstring>
 
 #include "cli/exit_status.h"
+#include "document/text/data_error.h"
 
 namespace stablecut::cli {
+namespace {
+
+// Far above any measurement, far below what a workstation has: an endless device comes to an end.
+constexpr std::size_t kLargestInput = std::size_t{1} << 30;
+
+}  // namespace
 
 document::Source read_source(const std::string& path) {
   const bool standard = path == "-";
@@ -34,6 +41,10 @@ document::Source read_source(const std::string& path) {
       fail(unreadable ? ExitStatus::kNoInput : ExitStatus::kIo, "cannot be read");
     }
     source.text.append(buffer.data(), got);
+    if (source.text.size() > kLargestInput) {
+      if (!standard) close(file);
+      throw document::DataError(source.name, "", "", "expected at most 1 GiB");
+    }
   }
   if (!standard) close(file);
   return source;

@@ -7,7 +7,8 @@
 
 namespace stablecut::cli {
 
-/// The bytes of a file, or of standard input for "-" (named <stdin> in messages). Throws Failure.
+/// The bytes of a file, or of standard input for "-" (named <stdin> in messages). At most 1 GiB. Throws
+/// Failure, and DataError where there is more.
 document::Source read_source(const std::string& path);
 
 }  // namespace stablecut::cli

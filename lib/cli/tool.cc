@@ -4,6 +4,8 @@
 #include <malloc.h>
 #endif
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -12,19 +14,21 @@
 #include <system_error>
 #include <thread>
 
+#include "base/edit_distance.h"
 #include "base/error.h"
+#include "cli/completion.h"
 #include "cli/exit_status.h"
 #include "cli/streams.h"
 #include "document/text/data_error.h"
+#include "document/text/plain_text.h"
 
 namespace stablecut::cli {
 namespace {
 
 // One line, whatever the text was.
 void say(const std::string& name, const std::string& text) {
-  std::string line = text;
-  while (!line.empty() && (line.back() == '\n' || line.back() == ' ')) line.pop_back();
-  std::replace(line.begin(), line.end(), '\n', ' ');
+  std::string line = document::printable(text);
+  while (!line.empty() && line.back() == ' ') line.pop_back();
   std::fprintf(stderr, "%s: %s\n", name.c_str(), line.c_str());
 }
 
@@ -173,6 +177,7 @@ document::Input Tool::read_input(const std::string& path, InputForm form) {
   if (path == "-") {
     if (standard_input_taken_) throw WrongUsage("-: expected standard input for one input only");
     standard_input_taken_ = true;
+    if (isatty(STDIN_FILENO) == 1) warn("reading standard input, which Ctrl-D ends: no INPUT was given");
   }
   document::Input input{read_source(path), nullptr};
   const bool is_json =
@@ -217,6 +222,28 @@ std::vector<std::string> Tool::result_arguments() const {
   return arguments;
 }
 
+// Options that the tool does not have, and inputs that it does not take.
+void Tool::refuse_unknown() const {
+  const std::vector<std::string> unknown = app_.remaining();
+  const auto option = std::find_if(unknown.begin(), unknown.end(),
+                                   [](const std::string& text) { return text.size() > 1 && text[0] == '-'; });
+  if (option == unknown.end()) {
+    if (!unknown.empty())
+      throw WrongUsage(unknown.front() + ": expected one input, " + input_ + " is another");
+    return;
+  }
+  const std::string name = option->substr(0, option->find('='));
+  std::string nearest;
+  for (const CLI::Option* known : app_.get_options()) {
+    for (const std::string& other : known->get_lnames()) {
+      if (nearest.empty() || edits_between(name, "--" + other) < edits_between(name, nearest))
+        nearest = "--" + other;
+    }
+  }
+  const bool near = 2 * edits_between(name, nearest) < name.size();
+  throw WrongUsage(name + ": unknown option" + (near ? ": expected " + nearest : ""));
+}
+
 int Tool::parse(int argc, char** argv) {
   app_.set_version_flag("--version", name_ + " " STABLECUT_VERSION, "Print the version and exit");
   app_.set_help_flag("-h,--help", "Print this help and exit");
@@ -237,6 +264,10 @@ int Tool::parse(int argc, char** argv) {
                       "Print the JSON Schema of a document kind and exit (default: what the tool writes)")
           ->type_name("KIND")
           ->expected(0, 1);
+  std::string shell;
+  add_choice_option(app_, "--print-completion", shell, "bash|zsh",
+                    "Print a script that completes this command in a shell and exit");
+  app_.allow_extras();
   try {
     app_.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -248,6 +279,7 @@ int Tool::parse(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     throw WrongUsage(error.what());
   }
+  refuse_unknown();
   for (const CLI::Option* option : app_.get_options()) {
     const auto& texts = option->results();
     if (option != schema_option_ && std::find(texts.begin(), texts.end(), "") != texts.end()) {
@@ -255,6 +287,10 @@ int Tool::parse(int argc, char** argv) {
     }
   }
   if (threads) threads_ = *threads;
+  if (!shell.empty()) {
+    outputs_.add("-", completion_text(app_, name_, shell));
+    return 1;
+  }
   if (schema_option_->count() > 0) {
     const std::string kind = schema_.empty() ? main_kind_ : schema_;
     const auto schema = document::schema_text(kind);

@@ -68,6 +68,7 @@ class Tool {
 
  private:
   int parse(int argc, char** argv);
+  void refuse_unknown() const;
   std::vector<std::string> result_arguments() const;
 
   std::string name_;

@@ -15,6 +15,7 @@ option(STABLECUT_ASSERTIONS "Keep the assertions of Eigen, of the standard libra
 set(STABLECUT_SANITIZE "" CACHE STRING "Sanitizers to build with, such as address,undefined or thread")
 option(STABLECUT_FUZZ "Build the fuzzers of the readers, with clang and the sanitizers" OFF)
 include(CTest)
+include(GNUInstallDirs)
 
 add_library(stablecut_settings INTERFACE)
 target_compile_options(stablecut_settings INTERFACE
@@ -57,7 +58,7 @@ endfunction()
 function(stablecut_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;LINK;PRIVATE_LINK;TESTS;BENCHMARKS" ${ARGN})
   add_library(stablecut_${name} STATIC ${ROOM_SOURCES})
-  target_include_directories(stablecut_${name} PUBLIC ${PROJECT_SOURCE_DIR}/lib)
+  target_include_directories(stablecut_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/lib>)
   target_link_libraries(stablecut_${name} PUBLIC ${ROOM_LINK} PRIVATE stablecut_settings ${ROOM_PRIVATE_LINK})
   if(BUILD_TESTING AND ROOM_TESTS)
     add_executable(${name}_test ${ROOM_TESTS})
@@ -73,15 +74,24 @@ function(stablecut_room name)
   endforeach()
 endfunction()
 
-# stablecut_tool(NAME [SOURCES more.cc ...] LINK libraries): the executable of apps/NAME, from its main.cpp.
+# Every tool.
 add_custom_target(tools)
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/completion)
+
+# stablecut_tool(NAME [SOURCES more.cc ...] LINK libraries): the executable of apps/NAME, from its main.cpp.
 function(stablecut_tool name)
   cmake_parse_arguments(TOOL "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} main.cpp ${TOOL_SOURCES})
   target_link_libraries(${name} PRIVATE stablecut_settings stablecut_cli ${TOOL_LINK})
   add_dependencies(tools ${name})
   install(TARGETS ${name})
-  install(FILES ${name}.1 TYPE MAN RENAME man1/${name}.1)
+  install(FILES ${name}.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  set(completion ${PROJECT_BINARY_DIR}/completion)
+  add_custom_command(TARGET ${name} POST_BUILD
+    COMMAND ${name} --print-completion bash >${completion}/${name}
+    COMMAND ${name} --print-completion zsh >${completion}/_${name})
+  install(FILES ${completion}/${name} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+  install(FILES ${completion}/_${name} DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
 endfunction()
 
 # stablecut_script_test(NAME SCRIPT): a shell script that exits 0 when what it checks holds and 77 to skip. It

@@ -110,7 +110,10 @@ struct Found {
 };
 
 Found document_at(const Node& node, const DocumentLoader& load) {
-  if (const auto file = node.find("file")) return {load(file->text()), ""};
+  if (const auto file = node.find("file")) {
+    if (file->text().empty()) file->fail("expected the path of a file");
+    return {load(file->text()), ""};
+  }
   return {{node.source(), node.json()}, node.pointer()};
 }
 
@@ -224,7 +227,7 @@ class AssemblyReader {
              "these alone");
       given = node;
     } else {
-      node.check_names({"segments", "end", "modal_table", "receptances"});
+      node.check_names({"segments", "end", "sensor_mass_g", "artefact"});
       forbid(node, {"sensor_mass_g", "artefact"}, "expected only beside receptances");
       held.segments = segments_from(node.at("segments"), materials_);
       const Node end = node.at("end");

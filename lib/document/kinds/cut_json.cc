@@ -22,6 +22,8 @@ constexpr Bound kLead{
     .open_least = true,
     .words = "a lead angle above 0 and at most 90 degrees, from the plane normal to the axis"};
 constexpr Bound kDepth{.least = 0, .most = kMostDepthMm, .words = "a depth from 0 to 10000 mm"};
+constexpr Bound kDiameter{
+    .least = 0, .most = kMostDepthMm, .open_least = true, .words = "a diameter above 0, of at most 10000 mm"};
 constexpr Bound kCorrelation{.least = -1, .most = 1, .words = "a correlation from -1 to 1"};
 constexpr Bound kHelix{.least = -90,
                        .most = 90,
@@ -187,7 +189,7 @@ CutDocument cut_from_json(const Json& document, const Source& source, Coefficien
     cut.cutter.feed_angle_rad = radians_from_degrees(feed->number());
   }
   if (const auto diameter = root.find("diameter_mm"))
-    cut.cutter.diameter_m = metres_from_mm(diameter->number(kPositive));
+    cut.cutter.diameter_m = metres_from_mm(diameter->number(kDiameter));
   read_edges(root, cut.cutter);
   read_process_damping(root, cut.cutter);
   read_load(root, cut);

@@ -12,6 +12,8 @@
 namespace stablecut::document {
 namespace {
 
+constexpr Bound kResolution{.least = 0, .most = 1e4, .words = "a number of points from 0 to 10000"};
+
 const std::map<milling::Instability, const char*> kNames = {{milling::Instability::kHopf, "hopf"},
                                                             {milling::Instability::kFlip, "flip"},
                                                             {milling::Instability::kFold, "fold"}};
@@ -232,7 +234,7 @@ void take_part(const Node& root, const Shard& shard, bool with_grid, LobesDocume
   if (with_grid) read_columns(root.at("spectral_radius"), shard, chart.spectral_radius);
   if (with_grid && whole.sampled)
     read_columns(root.at("probability_stable"), shard, whole.sampled->stable_share);
-  const Eigen::VectorXd resolution = root.at("resolution").numbers(kNotNegative);
+  const Eigen::VectorXd resolution = root.at("resolution").numbers(kResolution);
   const auto limits = root.at("limit").items();
   if (resolution.size() != static_cast<Eigen::Index>(own.size()) || limits.size() != own.size())
     root.at("limit").fail("expected an entry for each speed");

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/number_text.h"
+#include "document/text/plain_text.h"
 
 namespace stablecut::document {
 namespace {
@@ -18,21 +19,6 @@ std::string joined(const std::string& file, const std::string& place, const std:
     text += *part;
   }
   return text;
-}
-
-// Bytes of the UTF-8 character at the front of the text, which is not empty; 0 where it is none.
-std::size_t utf8_length(std::string_view text) {
-  const auto first = static_cast<unsigned char>(text[0]);
-  const std::size_t length = first < 0x80                    ? 1
-                             : first >= 0xC2 && first < 0xE0 ? 2
-                             : (first & 0xF0) == 0xE0        ? 3
-                             : (first & 0xF8) == 0xF0        ? 4
-                                                             : 0;
-  if (length > text.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return 0;
-  }
-  return length;
 }
 
 }  // namespace
@@ -68,13 +54,7 @@ std::string shown(std::string value) {
     while (cut > 0 && (static_cast<unsigned char>(value[cut]) & 0xC0) == 0x80) --cut;  // keep UTF-8 whole
     value = value.substr(0, cut) + "...";
   }
-  for (std::size_t i = 0; i < value.size();) {
-    const std::size_t length = utf8_length(std::string_view(value).substr(i));
-    if (length == 0) value[i] = '?';
-    if (length == 1 && (static_cast<unsigned char>(value[i]) < 0x20 || value[i] == 0x7f)) value[i] = ' ';
-    i += std::max<std::size_t>(length, 1);
-  }
-  return value;
+  return printable(std::move(value));
 }
 
 }  // namespace stablecut::document

@@ -147,6 +147,9 @@ bool is_flat(const Json& value) {
   });
 }
 
+// Texts may hold what the command line gave, names of files that are not UTF-8 among them.
+std::string written(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
 void append(std::string& out, const Json& value, std::size_t indent) {
   const auto new_line = [&](std::size_t depth) {
     out += '\n';
@@ -155,7 +158,7 @@ void append(std::string& out, const Json& value, std::size_t indent) {
   if (value.is_number_float()) {
     append_number(out, value.get<double>());
   } else if (!value.is_structured()) {
-    out += value.dump();
+    out += written(value);
   } else if (value.empty()) {
     out += value.is_object() ? "{}" : "[]";
   } else if (value.is_array()) {
@@ -178,7 +181,7 @@ void append(std::string& out, const Json& value, std::size_t indent) {
       if (!first) out += ',';
       first = false;
       new_line(indent + 1);
-      out += Json(key).dump() + ": ";
+      out += written(Json(key)) + ": ";
       append(out, item, indent + 1);
     }
     new_line(indent);

@@ -27,7 +27,8 @@ struct Input {
 Json parse_json(const Source& source);
 
 /// Shortest text that reads back to the same numbers: objects and lists of objects indented, lists of numbers
-/// on one line, a newline at the end. Throws std::logic_error when a number is not finite.
+/// on one line, a newline at the end. Bytes of texts that are not UTF-8 become U+FFFD. Throws
+/// std::logic_error when a number is not finite.
 std::string json_text(const Json& value);
 
 }  // namespace stablecut::document

@@ -4,19 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "base/edit_distance.h"
 #include "document/text/data_error.h"
 
 namespace stablecut::document {
 namespace {
-
-// Edit distance at most 1: one letter more, less or other.
-bool nearly_equal(std::string_view a, std::string_view b) {
-  if (a.size() > b.size()) std::swap(a, b);
-  if (b.size() - a.size() > 1) return false;
-  const auto [in_a, in_b] = std::mismatch(a.begin(), a.end(), b.begin());
-  if (in_a == a.end()) return true;
-  return a.size() == b.size() ? std::equal(in_a + 1, a.end(), in_b + 1) : std::equal(in_a, a.end(), in_b + 1);
-}
 
 // The name without the unit words at its end: depth_mm -> depth, k2_n_m_per_rad -> k2.
 std::string_view stem(std::string_view name) {
@@ -65,13 +57,16 @@ void Node::check_names(std::initializer_list<std::string_view> known) const {
   if (!value_->is_object()) fail("expected an object");
   for (const auto& [name, unused] : value_->items()) {
     if (std::find(known.begin(), known.end(), name) != known.end() || name.starts_with("x_")) continue;
-    for (const auto& candidate : known) {
-      if (nearly_equal(name, candidate) || stem(name) == stem(candidate)) {
-        throw DataError(
-            source_->name, pointer_step(pointer_, name), "",
-            "unknown field: expected " + std::string(candidate) + " (a field of your own starts with x_)");
-      }
-    }
+    // The same quantity in another unit is nearer than any other name.
+    const auto distance = [&](std::string_view candidate) {
+      return stem(name) == stem(candidate) ? 0 : edits_between(name, candidate);
+    };
+    const std::string_view nearest =
+        *std::min_element(known.begin(), known.end(),
+                          [&](std::string_view a, std::string_view b) { return distance(a) < distance(b); });
+    throw DataError(
+        source_->name, pointer_step(pointer_, name), "",
+        "unknown field: expected " + std::string(nearest) + " (a field of your own starts with x_)");
   }
 }
 
@@ -84,8 +79,9 @@ double Node::number(const Bound& bound) const {
                       (bound.open_most ? value < bound.most : value <= bound.most);
   if (!inside) fail(expected);
   if (std::abs(value) > kLargestNumber) fail("expected a number of at most 1e100 in size");
-  if (bound.open_least && bound.least == 0 && value < 1 / kLargestNumber)
-    fail("expected a number of at least 1e-100");
+  if (bound.least == 0 && value != 0 && value < 1 / kLargestNumber)
+    fail(bound.open_least ? "expected a number of at least 1e-100"
+                          : "expected 0 or a number of at least 1e-100");
   return value;
 }
 

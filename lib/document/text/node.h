@@ -14,8 +14,8 @@
 
 namespace stablecut::document {
 
-/// A number larger than this in size is refused, and one that must be above 0 and is below its inverse: no
-/// quantity is so large or small, and products of a few such numbers would overflow.
+/// A number larger than this in size is refused, and one that must not be below 0 and lies between 0 and its
+/// inverse: no quantity is so large or small, and products of a few such numbers would overflow.
 inline constexpr double kLargestNumber = 1e100;
 
 /// What a number has to be besides that.
@@ -40,8 +40,8 @@ class Node {
   std::optional<Node> find(std::string_view name) const;
   bool has(std::string_view name) const { return value_->is_object() && value_->contains(std::string(name)); }
 
-  /// Checks this object's names: one within edit distance 1 of a known name, or with the stem of a known name
-  /// and another unit, is an error; others are free.
+  /// Checks this object's names: one that is not known is an error that names the nearest known one, unless
+  /// it begins with x_. `known` must not be empty.
   void check_names(std::initializer_list<std::string_view> known) const;
 
   double number(const Bound& bound = kAnyNumber) const;

@@ -5,6 +5,24 @@
 #include <cctype>
 
 namespace stablecut::document {
+namespace {
+
+// Bytes of the UTF-8 character at the front of the text, which is not empty; 0 where it is none.
+std::size_t utf8_length(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text[0]);
+  const std::size_t length = first < 0x80                    ? 1
+                             : first >= 0xC2 && first < 0xE0 ? 2
+                             : (first & 0xF0) == 0xE0        ? 3
+                             : (first & 0xF8) == 0xF0        ? 4
+                                                             : 0;
+  if (length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return 0;
+  }
+  return length;
+}
+
+}  // namespace
 
 bool is_blank(char c) { return std::string_view(kBlanks).find(c) != std::string_view::npos; }
 
@@ -41,6 +59,21 @@ std::string plain_signs(std::string_view text) {
     }
   }
   return result;
+}
+
+std::string printable(std::string text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const std::string_view rest = std::string_view(text).substr(i);
+    const std::size_t length = utf8_length(rest);
+    if (length == 0) text[i] = '?';
+    const bool is_control = length == 1 && (static_cast<unsigned char>(text[i]) < 0x20 || text[i] == 0x7f);
+    // The controls of Latin-1, some of which terminals follow too.
+    const bool is_high_control =
+        length == 2 && rest[0] == '\xC2' && static_cast<unsigned char>(rest[1]) < 0xA0;
+    if (is_control || is_high_control) std::fill_n(text.begin() + i, length, ' ');
+    i += std::max<std::size_t>(length, 1);
+  }
+  return text;
 }
 
 }  // namespace stablecut::document

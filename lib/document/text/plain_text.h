@@ -18,4 +18,8 @@ std::string lower(std::string text);
 /// Signs of UTF-8 and Latin-1 in plain letters: a micro sign as u, a raised 2 as ^2, a middle dot as *.
 std::string plain_signs(std::string_view text);
 
+/// The text with a blank for each control character and a question mark for each byte that is not UTF-8, of
+/// the same length: nothing in it moves a terminal.
+std::string printable(std::string text);
+
 }  // namespace stablecut::document

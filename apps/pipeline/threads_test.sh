@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# The same bytes whatever the number of threads, and each time: every tool with something to share out.
+. "$SOURCE/apps/testing.sh"
+table=$data/thesis-table-6-2.json cut=$data/thesis-cut.json robot=(--robot "$data/kr360.json")
+chart=(--speed 8000:20000:9 --depth 0:3:9)
+
+# same NAME COMMAND...: the bytes with one thread are those with 2, 3 and 8, and of a second run with 8.
+same() {
+  local name=$1 count; shift
+  "$@" --threads 1 >one.json || bad "$name: status $?"
+  for count in 2 3 8 8; do
+    "$@" --threads $count >several.json
+    check "$name with $count threads" cmp one.json several.json
+  done
+}
+
+jq '.kt_std_n_per_mm2 = 30 | .kr_std_n_per_mm2 = 20' "$cut" >sure.json
+jq '.feed_per_tooth_mm = 0.1 | .diameter_mm = 12' "$cut" >fed.json
+same "a chart" sdm-lobes "$table" --cut "$cut" "${chart[@]}" --per-mode --modes 14,15
+same "a chart by semi-discretization" sdm-lobes "$table" --cut "$cut" --speed 9000:12000:4 --depth 0:2:4 --modes 14,15 --method sdm
+same "samples" sdm-lobes "$table" --cut sure.json "${chart[@]}" --samples 8 --limit-only
+same "a surface" sdm-lobes "$table" --cut fed.json "${chart[@]}" --surface
+jq '.helix_deg = 30 | .pitch_deg = [170, 190]' fed.json >helical.json
+same "a helix" sdm-lobes "$table" --cut helical.json --modes 14,15 --speed 9000:12000:4 --depth 0:2:4
+same "points" sdm-lobes "$table" --cut "$cut" "${chart[@]}" --points "$data/thesis-table-6-3.csv"
+same "simulated cuts" cut-force --table "$table" --speed 9000 --points "$data/thesis-table-6-3.csv" --passes 64 fed.json
+
+fit-modes --synthesize 400:1500:220 --noise-db 50 "$table" >tap.json
+same "modes" fit-modes --quiet tap.json
+joint-stiffness --quiet "${robot[@]}" "$data/kr360-loads.csv" >stiffness.json
+same "joint stiffness" joint-stiffness --quiet "${robot[@]}" "$data/kr360-loads.csv"
+same "poses" best-pose --quiet "${robot[@]}" --height 1200 --x 1000:2000:4 --y 0:1000:4 stiffness.json
+same "a path" best-pose --quiet "${robot[@]}" --path "$data/zigzag-path.json" stiffness.json
+same "an assembly" rcsa-couple --quiet "$data/liu-assembly.json"

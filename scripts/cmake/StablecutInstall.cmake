@@ -1,0 +1,61 @@
+# What `cmake --install` puts where, and the Debian package that `scripts/package` makes of it:
+#   bin/                       the tools, the plot scripts, import-urdf
+#   share/man/man1/            their pages
+#   share/bash-completion, share/zsh   completion, written by the tools from their own options
+#   share/stablecut/           scripts, schemas and example data in the layout of the checkout
+#   include/, lib/             the rooms as a library: find_package(stablecut), pkg-config stablecut
+include(CMakePackageConfigHelpers)
+
+set(share ${CMAKE_INSTALL_DATADIR}/stablecut)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/scripts/ DESTINATION ${share}/scripts USE_SOURCE_PERMISSIONS
+  FILES_MATCHING PATTERN "plot*" PATTERN "import-urdf" PATTERN "report*" PATTERN "schema.jq"
+  PATTERN "cmake" EXCLUDE PATTERN "derive" EXCLUDE PATTERN "studies" EXCLUDE)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/schemas DESTINATION ${share} FILES_MATCHING PATTERN "*.schema.json")
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/testdata DESTINATION ${share})
+install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/LICENSE
+  ${PROJECT_SOURCE_DIR}/REFERENCES.md TYPE DOC)
+file(GLOB commands CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scripts/plot-* ${PROJECT_SOURCE_DIR}/scripts/report
+  ${PROJECT_SOURCE_DIR}/scripts/import-urdf)
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/links)
+foreach(command ${commands})
+  cmake_path(GET command FILENAME name)
+  file(CREATE_LINK ../${share}/scripts/${name} ${PROJECT_BINARY_DIR}/links/${name} SYMBOLIC)
+  install(FILES ${PROJECT_BINARY_DIR}/links/${name} TYPE BIN)
+endforeach()
+
+# The library. Its rooms are static, and need the packages that they use.
+set(rooms base numerics dynamics milling modal receptance robot document)
+list(TRANSFORM rooms PREPEND stablecut_ OUTPUT_VARIABLE targets)
+install(TARGETS ${targets} stablecut_settings EXPORT stablecut-targets
+  INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stablecut)
+foreach(room ${rooms})
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/lib/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stablecut
+    FILES_MATCHING PATTERN "*.h" PATTERN "*_test.h" EXCLUDE PATTERN "*_benchmark.h" EXCLUDE)
+endforeach()
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/stablecut)
+install(EXPORT stablecut-targets NAMESPACE stablecut:: DESTINATION ${package})
+configure_package_config_file(${PROJECT_SOURCE_DIR}/scripts/cmake/stablecut-config.cmake.in
+  ${PROJECT_BINARY_DIR}/stablecut-config.cmake INSTALL_DESTINATION ${package})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/stablecut-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/stablecut-config.cmake ${PROJECT_BINARY_DIR}/stablecut-config-version.cmake
+  DESTINATION ${package})
+# A room may use those before it in the list; the linker wants it the other way round.
+list(REVERSE targets)
+list(TRANSFORM targets PREPEND -l OUTPUT_VARIABLE STABLECUT_LIBRARIES)
+list(JOIN STABLECUT_LIBRARIES " " STABLECUT_LIBRARIES)
+configure_file(${PROJECT_SOURCE_DIR}/scripts/cmake/stablecut.pc.in ${PROJECT_BINARY_DIR}/stablecut.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/stablecut.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME stablecut)
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "stiff poses and stable cuts for milling robots")
+set(CPACK_PACKAGE_CONTACT "the stablecut project <stablecut@localhost>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "jq, gnuplot-nox, python3, man-db, bash-completion")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libeigen3-dev, libceres-dev, libboost-dev, nlohmann-json3-dev")
+include(CPack)
