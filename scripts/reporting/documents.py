@@ -1,0 +1,72 @@
+"""Reads documents and checks each against the schema of its kind."""
+
+import dataclasses
+import hashlib
+import json
+import pathlib
+import sys
+
+from jsonschema import Draft202012Validator
+
+SCHEMAS = pathlib.Path(__file__).resolve().parents[2] / "schemas"
+
+
+class Refused(Exception):
+    """What is wrong, and the exit status that says so."""
+
+    def __init__(self, message, status=65):
+        super().__init__(message)
+        self.status = status
+
+
+@dataclasses.dataclass
+class Document:
+    name: str  # of the file, without its folders
+    kind: str
+    sha256: str
+    content: dict
+
+    @property
+    def label(self):
+        """What the reader knows it by: its own label, or the name of the file."""
+        return self.content.get("label") or pathlib.PurePath(self.name).stem
+
+
+def _refuse_constant(text):
+    raise ValueError(f"{text}: expected a finite number")
+
+
+def _unique(pairs):
+    found = dict(pairs)
+    if len(found) != len(pairs):
+        raise ValueError(f"a key stands twice among {', '.join(sorted({key for key, _ in pairs}))[:80]}")
+    return found
+
+
+def _pointer(error):
+    return "".join("/" + str(step).replace("~", "~0").replace("/", "~1") for step in error.absolute_path)
+
+
+def read_document(path):
+    """The document in a file, or in standard input for "-". Raises Refused."""
+    shown = "<stdin>" if path == "-" else path
+    try:
+        raw = sys.stdin.buffer.read() if path == "-" else pathlib.Path(path).read_bytes()
+    except OSError:
+        raise Refused(f"{shown}: cannot be read", 66) from None
+    try:
+        content = json.loads(raw.decode(), parse_constant=_refuse_constant, object_pairs_hook=_unique)
+    except (ValueError, RecursionError) as error:
+        raise Refused(f"{shown}: not JSON: {str(error)[:160]}") from None
+    found = content.get("format") if isinstance(content, dict) else None
+    known = {f"stablecut/{file.name.removesuffix('.schema.json')}/1": file for file in SCHEMAS.glob("*.schema.json")}
+    if not isinstance(found, str) or found not in known:
+        raise Refused(f"{shown}: /format: {str(found)[:80] if found else 'nothing'}: expected stablecut/<kind>/1")
+    schema = json.loads(known[found].read_text())
+    # The deepest error of the best match says more than "is not valid under any of the given schemas".
+    for error in Draft202012Validator(schema).iter_errors(content):
+        while error.context:
+            error = max(error.context, key=lambda inner: len(inner.absolute_path))
+        raise Refused(f"{shown}: {_pointer(error) or '/'}: {' '.join(error.message.split())[-160:]}")
+    name = "standard input" if path == "-" else pathlib.PurePath(path).name
+    return Document(name, found.split("/")[1], hashlib.sha256(raw).hexdigest(), content)
