@@ -101,8 +101,11 @@ def lobes(document):
                                                                                 ("mode", [entry.get("mode") for entry in of_kind])]))
         found.append(chart("Chatter frequency at the limit", speed, axis("chatter frequency, Hz"), curves))
     if content.get("per_mode"):
-        curves = [_limit_curve(one, f"mode {one['mode']}", i) for i, one in enumerate(content["per_mode"])]
-        found.append(chart("Limit of each mode alone", speed, depth, curves + [_limit_curve(content, "all modes", 0) | {"width": 3}]))
+        alone = [one for one in content["per_mode"] if any(entry["depth_mm"] is not None for entry in one["limit"])]
+        silent = [str(one["mode"]) for one in content["per_mode"] if one not in alone]
+        curves = [_limit_curve(one, f"mode {one['mode']}", i + 1) for i, one in enumerate(alone)]
+        found.append(chart("Limit of each mode alone", speed, depth, [_limit_curve(content, "all modes", 0) | {"width": 3}] + curves,
+                           note=f"Without a limit in the chart: mode {', '.join(silent)}." if silent else None))
     if content.get("probability_stable"):
         grid = charts.cells("probability that the cut is stable", content["speed_rpm"], content["depth_mm"], content["probability_stable"],
                             [0.05, 0.2, 0.35, 0.5, 0.65, 0.8, 0.95], charts.colours_of(charts.UNLIKELY_TO_LIKELY, 8))

@@ -120,8 +120,8 @@
         interaction: points ? {mode: "nearest", intersect: true} : {mode: "nearest", axis: "x", intersect: false},
         scales: {x: scale(x, true), y: scale(y, false)},
         plugins: {
-          legend: {position: "bottom", labels: {usePointStyle: true, boxHeight: 9, pointStyleWidth: 13, filter: (item, data) => !data.datasets[item.datasetIndex].quiet}},
-          tooltip: {enabled: false, external: hover(canvas.parentElement.querySelector(".hover"))},
+          legend: {position: "bottom", labels: {sort: (a, b) => a.datasetIndex - b.datasetIndex, usePointStyle: true, boxHeight: 9, pointStyleWidth: 13, filter: (item, data) => !data.datasets[item.datasetIndex].quiet}},
+          tooltip: {enabled: false, itemSort: (a, b) => a.datasetIndex - b.datasetIndex, external: hover(canvas.parentElement.querySelector(".hover"))},
         },
       },
     });

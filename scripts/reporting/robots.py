@@ -85,7 +85,7 @@ def pose_map(document, poses=(), paths=()):
     return section(f"Pose map: {document.label}", (), found)
 
 
-def pose(document):
+def pose(document, most_rows=60):
     content = document.content
     label, factor = _score(content["index"])
     best = [("best", content["best"])] if content.get("best") else []
@@ -95,10 +95,20 @@ def pose(document):
             + [(one.get("name") or f"pose {i}", one) for i, one in enumerate(content.get("evaluated", []), 1)]]
     joints = len(rows[0]) - 8 if rows else 6
     head = ["", *[f"joint {i}, deg" for i in range(1, joints + 1)], "x, mm", "y, mm", "z, mm", "redundancy, deg", label, "deviation", "limit margin, deg"]
+    evaluated = content.get("evaluated", [])
+    clouds = []
+    if evaluated:
+        scores = [None if one["score"] is None else one["score"] * factor for one in evaluated]
+        for first, second in ((0, 2), (0, 1)):
+            places = [[one["tcp_mm"][axis_number] for one in evaluated] for axis_number in (first, second)]
+            clouds.append(chart("Tool points from the side" if second == 2 else "Tool points from above", axis(f"{'xyz'[first]}, mm (base frame)"),
+                                axis(f"{'xyz'[second]}, mm (base frame)"), [curve("poses", *places, 2, points=True, line=False,
+                                radius=1 if len(evaluated) > most_rows else 4, hover=[("pose", list(range(1, len(evaluated) + 1))), (label, scores)])], equal=True))
     sweep = content.get("redundancy_sweep")
     found = [chart("Score over the redundancy angle", axis("redundancy angle, deg"), axis(label), [
         curve("score", sweep["redundancy_deg"], [None if v is None else v * factor for v in sweep["score"]], 0)])] if sweep else []
-    return section(f"Poses: {document.label}", [("index", content["index"]["name"])], found, [table("Poses", head, rows)])
+    title = "Poses" if len(rows) <= most_rows else f"Poses, the first {most_rows} of {len(rows)}"
+    return section(f"Poses: {document.label}", [("index", content["index"]["name"])], clouds + found, [table(title, head, rows[:most_rows])])
 
 
 def _plan(document, index):
