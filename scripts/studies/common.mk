@@ -25,7 +25,7 @@ SHELL := bash
 .SECONDARY:
 
 .PHONY: all report clean
-all: $(addprefix $(out)/,$(documents) $(pictures) beside.md)
+all: $(addprefix $(out)/,$(documents) $(pictures) $(tables) $(if $(ours),beside.md))
 
 report: $(out)/report.html
 	@echo "$(out)/report.html"
@@ -37,11 +37,13 @@ $(out):
 	mkdir -p $@
 
 # The paper's numbers beside ours: fails where a number that can agree does not.
+ifneq ($(ours),)
 $(out)/beside.md: $(here)paper.tsv $(addprefix $(out)/,$(ours)) $(studies)beside
 	$(studies)beside $(here)paper.tsv $(addprefix $(out)/,$(ours)) > $@
+endif
 
 # A line "@include NAME" of text.md stands for the file NAME in the study's output.
-$(out)/text.md: $(here)text.md $(addprefix $(out)/,$(pictures) beside.md $(tables))
+$(out)/text.md: $(here)text.md $(addprefix $(out)/,$(pictures) $(tables) $(if $(ours),beside.md))
 	awk -v out=$(out) '/^@include / { while ((getline line < (out "/" $$2)) > 0) print line; next } { print }' $< > $@
 
 $(out)/report.html: $(out)/text.md $(addprefix $(out)/,$(documents)) $(scripts)/report $(wildcard $(scripts)/reporting/*)
