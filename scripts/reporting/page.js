@@ -128,7 +128,10 @@
     if (chart.equal) {
       const span = (name) => drawn.scales[name].max - drawn.scales[name].min;
       const {width, height} = drawn.chartArea;
-      canvas.parentElement.style.height = `${Math.min(1400, drawn.height + width * span("y") / span("x") - height)}px`;
+      const ratio = span("y") / span("x");
+      const wide = Math.min(width, 800 / ratio);
+      canvas.parentElement.style.width = `${drawn.width - width + wide}px`;
+      canvas.parentElement.style.height = `${drawn.height - height + wide * ratio}px`;
       drawn.resize();
     }
     performance.measure(`chart ${canvas.dataset.chart}`, {start});

@@ -22,7 +22,8 @@ LICENCE = pathlib.Path("/usr/share/doc/libjs-chart.js/copyright")
 def _escaped(value):
     if isinstance(value, bool):
         value = "yes" if value else "no"
-    return html.escape("" if value is None else f"{value:.6g}" if isinstance(value, float) else str(value))
+    long = isinstance(value, float) or isinstance(value, int) and abs(value) >= 1e7
+    return html.escape("" if value is None else f"{value:.6g}" if long else str(value))
 
 
 def _data(value):

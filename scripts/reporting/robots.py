@@ -101,6 +101,8 @@ def pose(document, most_rows=60):
         scores = [None if one["score"] is None else one["score"] * factor for one in evaluated]
         for first, second in ((0, 2), (0, 1)):
             places = [[one["tcp_mm"][axis_number] for one in evaluated] for axis_number in (first, second)]
+            if min(max(place) - min(place) for place in places) < 1:
+                continue  # a line
             clouds.append(chart("Tool points from the side" if second == 2 else "Tool points from above", axis(f"{'xyz'[first]}, mm (base frame)"),
                                 axis(f"{'xyz'[second]}, mm (base frame)"), [curve("poses", *places, 2, points=True, line=False,
                                 radius=1 if len(evaluated) > most_rows else 4, hover=[("pose", list(range(1, len(evaluated) + 1))), (label, scores)])], equal=True))
