@@ -60,6 +60,14 @@ check "its name by the user, without harm" grep -q 'with a ?joint?' named.svg
 sdm-lobes "$data/thesis-table-6-2.json" --cut "$data/thesis-cut.json" --speed 9000:9000:1 --depth 0.1:0.1:1 --limit-only |
   "$scripts/plot-lobes" -o stable.svg
 check "a chart without a limit says so" grep -q 'stable over the whole chart' stable.svg
+sdm-lobes "$data/thesis-table-6-2.json" --cut "$data/thesis-cut.json" --speed 5000:20000:12 --modes 3,5,13 --per-mode --limit-only --quiet -o per-mode.json
+"$scripts/plot-lobes" --per-mode per-mode.json -o per-mode.svg
+check "a curve for each mode with a limit" test "$(grep -oE 'mode [0-9]+ alone' per-mode.svg | sort -u | tr '\n' ' ')" = 'mode 3 alone mode 5 alone '
+refused 65 '^plot-lobes: lobes.json: /per_mode: expected a chart' "$scripts/plot-lobes" --per-mode lobes.json -o x.svg
+cp per-mode.json "a'; system \"touch pwned\" #.json"
+"$scripts/plot-lobes" lobes.json per-mode.json "a'; system \"touch pwned\" #.json" -o several.svg
+check "several limits by their names" test "$(grep -oE '>(lobes|per-mode|a\?\? system \?touch pwned\? \?)<' several.svg | sort -u | wc -l)" -eq 3 -a ! -e pwned
+refused 64 '^plot-lobes: expected one input with --surface or --per-mode' "$scripts/plot-lobes" --per-mode lobes.json per-mode.json -o x.svg
 
 "$scripts/plot-pose-map" pose-map.json --pose pose.json -o marked.svg
 check "best pose and unit" grep -q 'best pose' marked.svg
