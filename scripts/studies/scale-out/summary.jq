@@ -10,11 +10,15 @@ def removal($cut; $speed; $depth): $depth * ($cut | immersion) * $cut.diameter_m
 # The limit at all speeds that are known, those between the chart's too; the chart's top where there is none.
 def curve: (.depth_mm | max) as $top | .limit + (.what_to_run.limit_between // []) | sort_by(.speed_rpm)
   | map(select(.not_resolved == null) | [.speed_rpm, (.depth_mm // $top)]);
+# The limit at any speed, straight between the known ones.
+def at($limit; $speed): first(range(1; $limit | length) | select($limit[.][0] >= $speed)) as $i
+  | [$limit[$i - 1], $limit[$i]] as [$a, $b] | if $b[0] == $a[0] then [$a[1], $b[1]] | min else $a[1] + ($b[1] - $a[1]) * ($speed - $a[0]) / ($b[0] - $a[0]) end;
 # The best cut with each margin, of one chart.
 def best: .cut as $cut | curve as $limit
   | [margins[] as $margin | [$limit[] | . as [$speed, $own]
       | select($speed * (1 - $margin) >= $limit[0][0] and $speed * (1 + $margin) <= $limit[-1][0] or $margin == 0)
-      | ([$limit[] | select(.[0] >= $speed * (1 - $margin) and .[0] <= $speed * (1 + $margin)) | .[1]] | min * 0.9) as $depth
+      | ([$own, ($limit[] | select(.[0] >= $speed * (1 - $margin) and .[0] <= $speed * (1 + $margin)) | .[1]),
+          (if $margin > 0 then at($limit; $speed * (1 - $margin)), at($limit; $speed * (1 + $margin)) else empty end)] | min * 0.9) as $depth
       | {margin: $margin, speed: $speed, depth: $depth, removal: removal($cut; $speed; $depth)}] | max_by(.removal) | select(.)];
 reduce (inputs | split("\t")) as [$id, $pose, $tool, $material, $text] ({charts: 0, materials: {}};
   .charts += 1
