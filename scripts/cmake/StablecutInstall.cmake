@@ -1,5 +1,5 @@
 # What `cmake --install` puts where, and the Debian package that `scripts/package` makes of it:
-#   bin/                       the tools, the plot scripts, import-urdf
+#   bin/                       the tools, the plot scripts, import-urdf, stablecut-report
 #   share/man/man1/            their pages
 #   share/bash-completion, share/zsh   completion, written by the tools from their own options
 #   share/stablecut/           scripts, schemas and example data in the layout of the checkout
@@ -8,8 +8,8 @@ include(CMakePackageConfigHelpers)
 
 set(share ${CMAKE_INSTALL_DATADIR}/stablecut)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scripts/ DESTINATION ${share}/scripts USE_SOURCE_PERMISSIONS
-  FILES_MATCHING PATTERN "plot*" PATTERN "import-urdf" PATTERN "report*" PATTERN "schema.jq"
-  PATTERN "cmake" EXCLUDE PATTERN "derive" EXCLUDE PATTERN "studies" EXCLUDE)
+  FILES_MATCHING PATTERN "plot*" PATTERN "import-urdf" PATTERN "report" PATTERN "schema.jq" PATTERN "reporting/*"
+  PATTERN "studies/*" PATTERN "cmake" EXCLUDE PATTERN "derive" EXCLUDE PATTERN "__pycache__" EXCLUDE)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/schemas DESTINATION ${share} FILES_MATCHING PATTERN "*.schema.json")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/testdata DESTINATION ${share})
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/LICENSE
@@ -19,8 +19,10 @@ file(GLOB commands CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scripts/plot-* ${PROJ
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/links)
 foreach(command ${commands})
   cmake_path(GET command FILENAME name)
-  file(CREATE_LINK ../${share}/scripts/${name} ${PROJECT_BINARY_DIR}/links/${name} SYMBOLIC)
-  install(FILES ${PROJECT_BINARY_DIR}/links/${name} TYPE BIN)
+  # "report" alone would say too little in a folder of all programs.
+  string(REGEX REPLACE "^report$" "stablecut-report" linked ${name})
+  file(CREATE_LINK ../${share}/scripts/${name} ${PROJECT_BINARY_DIR}/links/${linked} SYMBOLIC)
+  install(FILES ${PROJECT_BINARY_DIR}/links/${linked} TYPE BIN)
 endforeach()
 
 # The library. Its rooms are static, and need the packages that they use.
@@ -43,6 +45,7 @@ install(FILES ${PROJECT_BINARY_DIR}/stablecut-config.cmake ${PROJECT_BINARY_DIR}
 list(REVERSE targets)
 list(TRANSFORM targets PREPEND -l OUTPUT_VARIABLE STABLECUT_LIBRARIES)
 list(JOIN STABLECUT_LIBRARIES " " STABLECUT_LIBRARIES)
+file(RELATIVE_PATH STABLECUT_UP /root/${CMAKE_INSTALL_LIBDIR}/pkgconfig /root)
 configure_file(${PROJECT_SOURCE_DIR}/scripts/cmake/stablecut.pc.in ${PROJECT_BINARY_DIR}/stablecut.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/stablecut.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
@@ -56,6 +59,6 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "jq, gnuplot-nox, python3, man-db, bash-completion")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "jq, gnuplot-nox, python3, libjs-chart.js, make, man-db, bash-completion")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libeigen3-dev, libceres-dev, libboost-dev, nlohmann-json3-dev")
 include(CPack)
