@@ -141,7 +141,8 @@ TEST_CASE("fewer polynomials than nodes have the limits of many, also beside a m
 
 // Pieces and a map of the revolution know nothing of arcs and of what is felt over several periods. The last
 // one has arcs longer than its period, 70 and 50 degrees three times.
-TEST_CASE("limits of unequal pitches, from polynomials along each tooth's arc, are those of the period map") {
+TEST_CASE("limits of unequal pitches, from polynomials along each tooth's arc, are those of the period map",
+          "[campaign]") {
   dynamics::ModalModel model = fixtures::oscillator({"x", "y"});
   dynamics::Mode slow = model.modes[0];
   slow.frequency_hz = 410;

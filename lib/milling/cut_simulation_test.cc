@@ -60,7 +60,7 @@ RandomCut random_cut(int n, int kind, std::mt19937_64& generator) {
 
 }  // namespace
 
-TEST_CASE("simulated deviations grow as the spectral radius says") {
+TEST_CASE("simulated deviations grow as the spectral radius says", "[campaign]") {
   std::mt19937_64 generator(7);
   int cuts = 0, far = 0, agree = 0;
   for (int n = 0; n < 300; ++n) {

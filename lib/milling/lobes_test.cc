@@ -195,7 +195,7 @@ TEST_CASE("a crossing names the mode near its chatter frequency, and that mode a
 }
 
 // The whole chart against one dense eigenvalue problem a point, with half as many points again.
-TEST_CASE("a chart of many modes and teeth has the radii of a dense solver on a finer map") {
+TEST_CASE("a chart of many modes and teeth has the radii of a dense solver on a finer map", "[campaign]") {
   const TipStructure structure = tip_structure(fixtures::coupled_modes(60, 7));
   const Cutter cutter = fixtures::benchmark_cutter(true, 0.8, 8);
   const std::vector<double> speeds = {50.0, 120.0}, depths = Range{0, 1e-3, 5}.values();

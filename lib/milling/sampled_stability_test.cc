@@ -34,7 +34,7 @@ TEST_CASE("without deviations every sample is the cut itself") {
   CHECK(sampled.stable_share(2, 0) == 0);
 }
 
-TEST_CASE("an interval of the limit is where the parameters' intervals put it") {
+TEST_CASE("an interval of the limit is where the parameters' intervals put it", "[campaign]") {
   dynamics::ModalModel model = fixtures::oscillator({"x"});
   const Cutter cutter = fixtures::benchmark_cutter(false, 1);
   const double limit = limit_with(model, cutter);

@@ -98,7 +98,7 @@ TEST_CASE("helix: a slight one is the plain case, and pitches by tooth are the p
   }
 }
 
-TEST_CASE("helix: discs of straight teeth, each behind the one below, tend to it") {
+TEST_CASE("helix: discs of straight teeth, each behind the one below, tend to it", "[campaign]") {
   const TipStructure structure = tip_structure(fixtures::coupled_modes(4, 6));
   const double depth = 2e-3, pitch = kTwoPi / 3;
   const numerics::GaussRule discs = numerics::gauss_legendre(30);

@@ -90,7 +90,8 @@ TEST_CASE("the rigid cantilever within the paper's bounds: 6.62e-5, and which va
   CHECK_FALSE(estimate.identifiable[0]);
 }
 
-TEST_CASE("noise 40 dB below the curve's size: at the Cramer-Rao bound, and what it cannot tell is said") {
+TEST_CASE("noise 40 dB below the curve's size: at the Cramer-Rao bound, and what it cannot tell is said",
+          "[campaign]") {
   const JointData clean = section_3();
   struct Case {
     ToolJoint joint;
@@ -130,7 +131,7 @@ TEST_CASE("noise 40 dB below the curve's size: at the Cramer-Rao bound, and what
   }
 }
 
-TEST_CASE("no start is missed: random joints over seven decades, with and without noise") {
+TEST_CASE("no start is missed: random joints over seven decades, with and without noise", "[campaign]") {
   const JointData clean = section_3(5);
   std::mt19937_64 random(4);
   const auto power = [&](double from, double to) {
@@ -155,7 +156,7 @@ TEST_CASE("no start is missed: random joints over seven decades, with and withou
   CHECK(tried == 40);
 }
 
-TEST_CASE("noise as a share of the value, known or not") {
+TEST_CASE("noise as a share of the value, known or not", "[campaign]") {
   JointData data = section_3(5);
   const ToolJoint joint{5e7, 200, 5e4, 0.5};
   const Eigen::VectorXcd exact = tip_with(data, joint);

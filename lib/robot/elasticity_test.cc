@@ -231,7 +231,7 @@ TEST_CASE("what turns freely with a base and bearings that yield") {
   CHECK(flipped > 0);
 }
 
-TEST_CASE("the search is never beaten by random poses, whatever yields") {
+TEST_CASE("the search is never beaten by random poses, whatever yields", "[campaign]") {
   std::mt19937_64 generator(45);
   for (int n = 0; n < 8; ++n) {
     const Robot robot = with_tool_offset(kr360(), n % 4 < 2 ? 0 : 0.15);

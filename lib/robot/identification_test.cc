@@ -76,7 +76,7 @@ TEST_CASE("one sample cannot tell joints apart, and says so") {
   CHECK_FALSE(found.any_identified());
 }
 
-TEST_CASE("95 % intervals cover the true value in 93 to 97 % of all joints and 500 runs") {
+TEST_CASE("95 % intervals cover the true value in 93 to 97 % of all joints and 500 runs", "[campaign]") {
   const Robot robot = kr360();
   const auto coverage = [&](const Setup& setup, double std_m, double std_rad, bool stated, bool huber) {
     std::vector<LoadSample> exact = samples_of(robot, setup);

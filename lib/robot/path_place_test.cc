@@ -16,7 +16,7 @@ Eigen::Isometry3d frame_at(const Eigen::Vector3d& origin) {
   return frame;
 }
 
-TEST_CASE("the best place is that of a full search at every place") {
+TEST_CASE("the best place is that of a full search at every place", "[campaign]") {
   PathCell cell = path_cells()[GENERATE(0, 2)];
   cell.robot = with_tool_offset(cell.robot, 0.15);
   const bool mean = GENERATE(false, true);

@@ -149,7 +149,7 @@ TEST_CASE("points so near that no joint turns by a degree between them") {
   CHECK(found.parts[0].objective <= reference.parts[0].objective * 1.01);
 }
 
-TEST_CASE("dense paths are not worse than the plain ladder") {
+TEST_CASE("dense paths are not worse than the plain ladder", "[campaign]") {
   // The slowest joint does not turn by a degree between two points, and others do: the plain ladder moves.
   const PathCell cell = cell_for(path_cells()[0], 3);
   PathTask task = path_task(cell, zigzag_path(cell, 1100, 0.5), "deflection");

@@ -158,7 +158,7 @@ TEST_CASE("an offset tool: the redundancy angle matters by what brute force says
   }
 }
 
-TEST_CASE("random tasks: the search is never beaten by random poses") {
+TEST_CASE("random tasks: the search is never beaten by random poses", "[campaign]") {
   std::mt19937_64 generator(11);
   for (int n = 0; n < 12; ++n) {
     Robot robot = with_tool_offset(kr360(), n % 2 == 0 ? 0 : uniform(generator, 0.05, 0.3));
@@ -184,7 +184,8 @@ TEST_CASE("random tasks: the search is never beaten by random poses") {
 }
 
 TEST_CASE(
-    "random windows and points, also out of reach: an allowed pose that random poses do not beat, or none") {
+    "random windows and points, also out of reach: an allowed pose that random poses do not beat, or none",
+    "[campaign]") {
   std::mt19937_64 generator(23);
   int found = 0, none = 0;
   for (int n = 0; n < 60; ++n) {
