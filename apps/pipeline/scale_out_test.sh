@@ -4,7 +4,8 @@
 . "$SOURCE/apps/testing.sh"
 . "$SOURCE/apps/pipeline/slurm_loopback.sh"
 command -v make >/dev/null || { echo "skipped: make is not installed"; trap - EXIT; exit 77; }
-trap 'slurm_stop; finish || exit 1' EXIT
+ssh_pid=
+trap '[ -z "$ssh_pid" ] || kill "$ssh_pid"; slurm_stop; finish || exit 1' EXIT
 scale=$SOURCE/scripts/studies/scale-out
 mkdir plan
 cp "$data/thesis-table-6-2.json" plan/one.json
@@ -61,12 +62,32 @@ engine() {
   check "$name: with nothing to do" "$@" >.log 2>&1
   check "$name: nothing is run" test -z "$(ran)"
 }
+# Two nodes, node1 and node2, by one server on this machine.
+ssh_start() {
+  [ -x /usr/sbin/sshd ] && [ "$(id -u)" -eq 0 ] || return 1
+  mkdir -p /run/sshd && mkdir ssh && chmod 700 ssh || return 1
+  ssh-keygen -q -t ed25519 -N '' -f ssh/host && ssh-keygen -q -t ed25519 -N '' -f ssh/user || return 1
+  local port=$((20000 + ($$ + 7) % 20000))
+  printf '%s\n' "Port $port" 'ListenAddress 127.0.0.1' "HostKey $PWD/ssh/host" "AuthorizedKeysFile $PWD/ssh/user.pub" 'StrictModes no' \
+    'PermitRootLogin yes' 'UsePAM no' 'MaxStartups 100' >ssh/sshd_config
+  printf '%s\n' 'Host node1 node2' 'HostName 127.0.0.1' "Port $port" "IdentityFile $PWD/ssh/user" 'StrictHostKeyChecking no' \
+    'UserKnownHostsFile /dev/null' 'LogLevel ERROR' >ssh/config
+  /usr/sbin/sshd -D -f "$PWD/ssh/sshd_config" >/dev/null 2>&1 &
+  ssh_pid=$!
+  local i
+  for ((i = 0; i < 20; ++i)); do ssh -F ssh/config node1 true 2>/dev/null </dev/null && return 0; sleep 0.2; done
+  return 1
+}
 by_make() { make --no-print-directory -C "$scale" OUT="$PWD/$1" PLAN="$PWD/plan" OPTIONS="${options[*]}" TOOLS=/nonexistent "${@:2}"; }
 engine make make/scale-out by_make make -j2
 if command -v parallel >/dev/null; then
   mkdir -p home
   engine parallel parallel/scale-out env HOME="$PWD/home" make --no-print-directory -C "$scale" OUT="$PWD/parallel" PLAN="$PWD/plan" \
     OPTIONS="${options[*]}" TOOLS=/nonexistent CHUNK=2 parallel
+  if ssh_start; then
+    PARALLEL_SSH="ssh -F $PWD/ssh/config" engine "parallel over ssh" ssh-parallel/scale-out env HOME="$PWD/home" make --no-print-directory -C "$scale" \
+      OUT="$PWD/ssh-parallel" PLAN="$PWD/plan" OPTIONS="${options[*]}" TOOLS=/nonexistent HOSTS=1/node1,1/node2 parallel
+  else echo "skipped: no ssh server can be started on 127.0.0.1 (Debian: openssh-server, and root)"; fi
 else echo "skipped: GNU parallel is not installed"; fi
 if slurm_start >reason; then
   engine Slurm slurm/scale-out by_make slurm CHUNK=2 slurm
