@@ -148,17 +148,23 @@ TEST_CASE("limits of unequal pitches, from polynomials along each tooth's arc, a
   slow.frequency_hz = 410;
   slow.psi_l *= 922.0 / 410;
   model.modes.push_back(slow);
-  const TipStructure structure = tip_structure(model);
+  // In the other one forces change the velocity at once, and with it what the flanks of all teeth feel.
+  dynamics::ModalModel massless = model;
+  for (dynamics::Mode& mode : massless.modes) mode.psi_l *= std::polar(1.0, 0.2);
+  const TipStructure with_mass = tip_structure(model), without = tip_structure(massless);
   int limits = 0;
   for (const auto& [immersion, degrees, damping] : {std::tuple{0.2, std::vector<double>{170, 190}, 0.0},
                                                     {1.0, {110, 120, 130}, 0.0},
                                                     {0.2, {170, 190}, 5e4},
+                                                    {1.0, {150, 210}, 5e4},
                                                     {0.6, {70, 50, 70, 50, 70, 50}, 0.0}}) {
     Cutter cutter = fixtures::benchmark_cutter(true, immersion, static_cast<int>(degrees.size()));
     for (const double angle : degrees) cutter.pitch_rad.push_back(radians_from_degrees(angle));
     cutter.diameter_m = 12e-3;
     cutter.damping_n_per_m = damping;
     cutter.damping_friction = 0.3;
+
+    const TipStructure& structure = damping > 0 && immersion == 1 ? without : with_mass;
     for (const double speed : {90.0, 210.0}) {
       INFO(degrees.size() << " teeth, " << immersion << ", " << speed << " rev/s");
       const auto arcs = circle_limits(structure, cutter, speed, 4e-3);

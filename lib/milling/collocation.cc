@@ -104,8 +104,8 @@ class Builder {
         add_forced_response(lambda, source, responses[source.rule]);
         set_final_response(k, source, responses[source.rule]);
       }
-      add_velocity_jumps(lambda);
     }
+    add_velocity_jumps();
   }
 
   // The rows sense a displacement less the one that their surface keeps. One that was left in this period is
@@ -202,8 +202,7 @@ class Builder {
         at_node = response.row(count) * std::exp(lambda * (node.time_s - source.end_s));
       } else {
         // A node of another tooth's piece inside this one (unequal pitch).
-        const double place = 2 * (node.time_s - source.start_s) / (source.end_s - source.start_s) - 1;
-        at_node = rules_[source.rule].response(lambda, place);
+        at_node = rules_[source.rule].response(lambda, place_in(source, node.time_s));
       }
       for (Eigen::Index row = node.first_row; row < node.end_row(); ++row) {
         for (Eigen::Index column = source.first_row; column < source.end_row; ++column)
@@ -222,16 +221,33 @@ class Builder {
     }
   }
 
-  // r' = 2 Re sum psi_r (lambda q + psi_l f): a force changes the velocity at once unless 2 Re sum psi_r
-  // psi_l is zero, which it is for a structure with mass and seldom for measured modes.
-  void add_velocity_jumps(Complex lambda) {
-    for (Eigen::Index r = 0; r < row_count(); ++r) {
-      const SensedRow& row = result_.rows[r];
-      if (!row.is_velocity) continue;
-      const CollocationNode& node = result_.nodes[row.node];
-      for (Eigen::Index column = node.first_row; column < node.end_row(); ++column)
-        result_.sensed_of_drive(r, column) += (observed_[r] / lambda * driven_[column]).real();
+  // r' = 2 Re sum psi_r (lambda q + psi_l f): the force of all pieces under way changes the velocity at once
+  // unless 2 Re sum psi_r psi_l is zero, which it is for a structure with mass and seldom for measured modes.
+  void add_velocity_jumps() {
+    const Eigen::MatrixXd jump = 2 * (structure_.psi_r * structure_.psi_l.transpose()).real();
+    for (std::size_t i = 0; i < result_.nodes.size(); ++i) {
+      const CollocationNode& node = result_.nodes[i];
+      if (!result_.rows[node.end_row() - 1].is_velocity) continue;
+      for (const PlacedPiece& source : pieces_) {
+        const bool own = i >= source.first_node && i < source.end_node;
+        if (!own && (node.time_s <= source.start_s || node.time_s >= source.end_s)) continue;
+        const Eigen::RowVectorXd force = rules_[source.rule].force(place_in(source, node.time_s));
+        for (Eigen::Index column = source.first_row; column < source.end_row; ++column) {
+          const CollocationNode& from = result_.nodes[result_.rows[column].node];
+          const Eigen::VectorXd speed =
+              force[point_of(column, source)] * jump * from.drive.col(column - from.first_row);
+          for (Eigen::Index row = node.first_row; row < node.end_row(); ++row) {
+            if (result_.rows[row].is_velocity)
+              result_.sensed_of_drive(row, column) += result_.rows[row].direction * speed;
+          }
+        }
+      }
     }
+  }
+
+  // In [-1, 1] from the piece's beginning to its end.
+  static double place_in(const PlacedPiece& piece, double time_s) {
+    return 2 * (time_s - piece.start_s) / (piece.end_s - piece.start_s) - 1;
   }
 
   Eigen::Index point_of(Eigen::Index row, const PlacedPiece& piece) const {

@@ -14,10 +14,11 @@ constexpr double kGone = 1e-6;  // what is left of the start
 constexpr int kLeastRevolutions = 16, kMostPasses = 4000;
 constexpr double kMostStepsInAll = 4e6;
 constexpr double kSettled = 1e-3;      // of the vibration
+constexpr double kStill = 1e-3;        // of the mean deflection: vibration that is none
 constexpr std::size_t kSamples = 200;  // once per tooth
 constexpr int kMostPeriods = 256;      // of the spectrum
 constexpr int kMostPerPeriod = 1024, kLeastPerPeriod = 64;
-constexpr double kPush = 0.01;
+constexpr double kRepeats = 1e-6;  // of the state
 constexpr double kFarthest = 0.1;  // m
 
 // Teeth to follow: a whole number of revolutions.
@@ -96,8 +97,16 @@ class Record {
   std::vector<std::optional<double>> farthest_;
 };
 
-SimulatedCut::State pushed(SimulatedCut::State state) {
-  state.modes *= 1 + kPush;
+// Whether a motion that repeats in contact does so when teeth may lose it.
+bool repeats(const SimulatedCut& cut, const SimulatedCut::State& motion) {
+  SimulatedCut::State state = motion;
+  SimulatedCut::Contact contact;
+  for (int period = 0; period < cut.cycle(); ++period) cut.advance(state, contact, [](const auto&) {});
+  return (state.modes - motion.modes).matrix().norm() <= kRepeats * motion.modes.matrix().norm();
+}
+
+SimulatedCut::State pushed(SimulatedCut::State state, double by) {
+  state.modes *= 1 + by;
   return state;
 }
 
@@ -139,8 +148,9 @@ SimulationResult simulate_cut(const TipStructure& structure, const Cutter& cutte
   int looked_at = 1;
   while (2 * looked_at <= std::min((cycles + 1) / 2, kMostPeriods)) looked_at *= 2;
 
-  SimulatedCut::State state =
-      request.from_rest ? cut.at_rest() : pushed(periodic_state(cut, structure.displacement_scale_m));
+  const SimulatedCut::State repeating = periodic_state(cut, structure.displacement_scale_m);
+  result.keeps_contact = repeats(cut, repeating);
+  SimulatedCut::State state = request.from_rest ? cut.at_rest() : pushed(repeating, request.push);
   const long start = state.period, end = start + static_cast<long>(cycles) * cut.cycle();
   const long from = end - static_cast<long>(looked_at) * cut.cycle();
   Record record(cut, load, from, end - teeth / passes_of_period);
@@ -170,7 +180,8 @@ SimulationResult simulate_cut(const TipStructure& structure, const Cutter& cutte
   const Eigen::Index shifted = motion.cols() - count;
   const double change =
       std::sqrt((motion.rightCols(shifted) - motion.leftCols(shifted)).colwise().squaredNorm().maxCoeff());
-  result.settled = looked_at > 1 && change <= kSettled * result.peak_vibration_m;
+  result.settled = looked_at > 1 && change <= kSettled * std::max(result.peak_vibration_m,
+                                                                  kStill * result.mean_deflection_m.norm());
   if (!result.settled && looked_at > 1) {
     const SpectralLine line =
         largest_line(motion, count, static_cast<double>(motion.cols()) * kTwoPi * speed / record.turned);

@@ -14,14 +14,19 @@ struct SimulationRequest {
   double depth_m = 0;
   std::optional<int> passes;     ///< teeth to follow; none: until what was there at the start is gone
   std::optional<int> per_pitch;  ///< steps; none: as many as the growth needs
-  /// Begins at rest in the full cut, which is a blow; else on the motion that repeats, pushed aside by a
-  /// hundredth of it.
+  /// Begins at rest in the full cut, which is a blow; else on the motion that repeats, pushed aside.
   bool from_rest = false;
+  double push = 1e-4;  ///< of that motion: small, since the linear verdict is one about small deviations
 };
 
 struct SimulationResult {
   SimulatedGrowth growth;
   bool stable() const { return growth.per_tooth < 1; }
+
+  /// The motion that repeats while teeth are in contact as those of a rigid tool are is one of this cut. Else
+  /// it would leave a tooth without its chip, or give one to a tooth that has none, and the growth says
+  /// nothing about the motion that takes its place.
+  bool keeps_contact = true;
 
   int steps_per_tooth = 0;  ///< of the mean pitch
   int passes = 0;           ///< teeth followed, from rest in the cut

@@ -82,6 +82,27 @@ TEST_CASE("simulated deviations grow as the spectral radius says", "[campaign]")
   CHECK(agree >= 0.99 * far);
 }
 
+TEST_CASE("a force that changes the velocity at once does so for the flanks of all teeth in cut") {
+  // Modes of no structure with mass, process damping, and unequal pitches of which several are in cut.
+  const TipStructure structure = tip_structure(fixtures::coupled_modes(3, 8));
+  for (const auto& [up, immersion, speed] : {std::tuple{true, 0.9, 90.0}, std::tuple{false, 1.0, 140.0}}) {
+    Cutter cutter = fixtures::benchmark_cutter(up, immersion, 4);
+    cutter.diameter_m = 10e-3;
+    cutter.pitch_rad = {1.4, 1.65, 1.5, kTwoPi - 4.55};
+    cutter.damping_n_per_m = 1e5;
+    cutter.damping_friction = 0.3;
+    int unstable = 0;
+    for (const double depth : {0.15e-3, 0.9e-3}) {
+      const double radius = spectral_radius(*prepare_period(structure, cutter, speed, {}, depth).map, depth);
+      unstable += radius > 1;
+      const SimulatedGrowth growth = simulated_growth(structure, cutter, kLoad, speed, depth);
+      INFO(speed << " rev/s, " << depth << " m: " << growth.per_tooth << ", " << radius);
+      CHECK(std::abs(growth.per_tooth / radius - 1) < 1e-4);
+    }
+    CHECK(unstable > 0);
+  }
+}
+
 TEST_CASE("the simulated motion settles where the cut is stable, and nowhere else") {
   std::mt19937_64 generator(8);
   int far = 0, agree = 0;

@@ -191,6 +191,12 @@ const StabilityCrossing* limit_of(const std::vector<StabilityCrossing>& crossing
   return lowest == crossings.end() ? nullptr : &*lowest;
 }
 
+bool stable_between(const std::vector<StabilityCrossing>& crossings, double depth_m) {
+  const auto below = std::find_if(crossings.begin(), crossings.end(),
+                                  [&](const StabilityCrossing& c) { return c.depth_m >= depth_m; });
+  return (below - crossings.begin()) % 2 == 0;
+}
+
 std::optional<double> limit_depth(const TipStructure& structure, const Cutter& cutter,
                                   double revolutions_per_s, StabilityMethod method, int resolution,
                                   double largest_depth_m) {

@@ -48,6 +48,9 @@ std::vector<StabilityCrossing> crossings_at(const TipStructure& structure, const
 /// The lowest depth at which the cut loses stability; none where it is stable to the top.
 const StabilityCrossing* limit_of(const std::vector<StabilityCrossing>& crossings);
 
+/// Whether a depth up to the largest is stable: up to the first crossing, and between a second and a third.
+bool stable_between(const std::vector<StabilityCrossing>& crossings, double depth_m);
+
 /// The number of a lobe: whole waves that the chatter leaves on the surface between a tooth and the next.
 int lobe_number(double chatter_frequency_hz, double tooth_period_s);
 

@@ -52,6 +52,11 @@ dynamics::ModalModel moved(dynamics::ModalModel model, const Eigen::VectorXd& by
 
 }  // namespace
 
+void set_coefficients(Cutter& cutter, double kt_by_n_per_m2, double kr_by_n_per_m2) {
+  cutter.kt_n_per_m2 = std::max(cutter.kt_n_per_m2 + kt_by_n_per_m2, kLeastOfMean * cutter.kt_n_per_m2);
+  cutter.kr_n_per_m2 = std::max(cutter.kr_n_per_m2 + kr_by_n_per_m2, 0.0);
+}
+
 std::vector<SampledCut> sampled_cuts(const dynamics::ModalModel& model, const Cutter& cutter,
                                      const CoefficientDeviations& deviations, int count, unsigned seed) {
   const Eigen::MatrixXd root = root_of(model.covariance);
@@ -69,8 +74,7 @@ std::vector<SampledCut> sampled_cuts(const dynamics::ModalModel& model, const Cu
     for (const double side : {1.0, -1.0}) {
       SampledCut sample{tip_structure(by.size() > 0 ? moved(model, side * by) : model, cutter.is_axial()),
                         cutter};
-      sample.cutter.kt_n_per_m2 = std::max(cutter.kt_n_per_m2 + side * kt, kLeastOfMean * cutter.kt_n_per_m2);
-      sample.cutter.kr_n_per_m2 = std::max(cutter.kr_n_per_m2 + side * kr, 0.0);
+      set_coefficients(sample.cutter, side * kt, side * kr);
       samples.push_back(std::move(sample));
     }
   }
@@ -96,11 +100,7 @@ SampledStability sampled_stability(const std::vector<SampledCut>& samples,
           limits.push_back(boundaries.empty() ? std::numeric_limits<double>::infinity()
                                               : boundaries[0].depth_m);
           for (std::size_t i = 0; with_grid && i < depths_m.size(); ++i) {
-            const auto below =
-                std::find_if(boundaries.begin(), boundaries.end(),
-                             [&](const StabilityCrossing& b) { return b.depth_m >= depths_m[i]; });
-            // Stable up to the first boundary, and between a second and a third.
-            if ((below - boundaries.begin()) % 2 == 0) result.stable_share(i, s) += 1;
+            if (stable_between(boundaries, depths_m[i])) result.stable_share(i, s) += 1;
           }
         }
         std::sort(limits.begin(), limits.end());

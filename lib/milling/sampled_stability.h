@@ -32,6 +32,9 @@ struct SampledCut {
 std::vector<SampledCut> sampled_cuts(const dynamics::ModalModel& model, const Cutter& cutter,
                                      const CoefficientDeviations& deviations, int count, unsigned seed);
 
+/// Moves the cutter's Kt and Kr, within those bounds.
+void set_coefficients(Cutter& cutter, double kt_by_n_per_m2, double kr_by_n_per_m2);
+
 struct SampledStability {
   Eigen::MatrixXd stable_share;  ///< [depths x speeds] of the samples; empty if unasked
   /// [speeds] 2.5 % and 97.5 % quantiles of the limit depth, m; none: above the largest depth.

@@ -231,20 +231,21 @@ class Builder {
               (o.during.weighted * felt[kind * structure_.directions() + b].middleRows(o.first, here)) *
               drives_[b];
       }
-      if (o.offset_s == 0 && kinds_ > 1) add_velocity_jumps(o);
+      if (kinds_ > 1) add_velocity_jumps(o);
     }
   }
 
-  // r' has jumps of 2 Re(Psi_R Psi_L^T) f.
+  // r' has jumps of 2 Re(Psi_R Psi_L^T) f while a force acts.
   void add_velocity_jumps(Overlap& overlap) const {
     const Eigen::MatrixXd jump = 2 * (structure_.psi_r * structure_.psi_l.transpose()).real();
-    for (Eigen::Index i = 0; i < points_; ++i) {
-      const Eigen::VectorXd basis = numerics::orthonormal_legendre(rule_.node[i], count_);
+    const Sensor& at = overlap.during;
+    for (Eigen::Index i = 0; i < at.place.size(); ++i) {
+      const double along = at.place[i] + 2 * overlap.offset_s / length_s_;  // the forcing arc
+      const Eigen::VectorXd basis = numerics::orthonormal_legendre(along, count_);
       for (Eigen::Index kind = 0; kind < kinds_; ++kind)
         overlap.response.block(count_, kind * count_, count_, count_) +=
-            (unit_of(1) / unit_of(kind) * whole_.sense[1].row(i) * jump * drive(rule_.node[i], kind))
-                .value() *
-            whole_.weighted.col(i) * basis.transpose();
+            (unit_of(1) / unit_of(kind) * at.sense[1].row(i) * jump * drive(along, kind)).value() *
+            at.weighted.col(i) * basis.transpose();
     }
   }
 

@@ -26,4 +26,27 @@ inline std::optional<double> quantile(const std::vector<double>& sorted, double 
   return low + std::clamp(place - below, 0.0, 1.0) * (high - low);
 }
 
+/// The same of values in any order that have weights, at least one of them above 0: each stands for the middle
+/// of its share of the weight.
+inline double weighted_quantile(const std::vector<double>& values, const std::vector<double>& weights,
+                                double share) {
+  std::vector<std::size_t> order;
+  double all = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (weights[i] > 0) order.push_back(i);
+    all += weights[i];
+  }
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  double before = 0, place = 0, value = values[order.front()];
+  for (const std::size_t i : order) {
+    const double here = (before + weights[i] / 2) / all;
+    if (here >= share)
+      return here > place ? value + (share - place) / (here - place) * (values[i] - value) : values[i];
+    before += weights[i];
+    place = here;
+    value = values[i];
+  }
+  return value;
+}
+
 }  // namespace stablecut::numerics
