@@ -14,6 +14,7 @@
 #include "document/text/data_error.h"
 #include "identify.h"
 #include "points.h"
+#include "tested.h"
 #include "words.h"
 
 namespace stablecut {
@@ -23,6 +24,7 @@ constexpr double kDefaultDepthMm = 1;
 constexpr int kDefaultHarmonics = 10;
 
 bool is_positive(double value) { return value > 0; }
+bool is_minority(double value) { return value > 0 && value < 0.5; }
 
 class CutForce : public cli::Tool {
  public:
@@ -63,6 +65,16 @@ class CutForce : public cli::Tool {
                            "fit (default): find edge forces too; cut: take those of the cut, or none");
     cli::add_choice_option(app, "--force-on", force_on_, "tool|workpiece",
                            "What the measured forces act on (default: tool)");
+
+    cli::begin_group(app, "Coefficients from tested cuts");
+    add_file_option(app, "--tested", tested_path_,
+                    "Write the cut with Kt and Kr as these cuts leave them: CSV or JSON with depth_mm, "
+                    "speed_rpm, observed; needs --table and standard deviations of Kt and Kr in the cut");
+    cli::add_integer_option(app, "--samples", samples_, 2, "Cuts to draw (default: 2000)");
+    cli::add_integer_option(app, "--seed", seed_, 0, "Seed of the samples (default: 1)");
+    cli::add_number_option(app, "--wrong-share", wrong_share_,
+                           "Share of the observations that are taken to be wrong (default: 0.05)",
+                           "a ratio above 0 and below 0.5", is_minority);
   }
 
   void run() override {
@@ -70,18 +82,30 @@ class CutForce : public cli::Tool {
     const document::Input input = read_main_input(cli::InputForm::kJson);
     if (identify_option_->count() > 0)
       identify(input);
+    else if (!tested_path_.empty())
+      learn(input);
     else
       compute(input);
   }
 
   void check_usage() const {
     const bool identifies = identify_option_->count() > 0;
+    const bool learns = !tested_path_.empty();
+    cli::refuse_if(identifies && learns, "--tested: expected without --identify");
     cli::refuse_if(identifies && (depth_ || speed_ || harmonics_ || !table_path_.empty()),
                    "--identify: expected without --depth, --speed, --harmonics and --table");
+    cli::refuse_if(
+        learns && (depth_ || speed_ || harmonics_ || !points_path_.empty() || request_.passes ||
+                   request_.steps || request_.from_rest),
+        "--tested: expected without --depth, --speed, --harmonics, --points, --passes, --steps and "
+        "--from-rest");
+    cli::refuse_if(learns && table_path_.empty(), "--tested: expected with --table");
+    cli::refuse_if(!learns && (samples_ || seed_ || wrong_share_),
+                   "--samples, --seed, --wrong-share: expected with --tested only");
     cli::refuse_if(!identifies && !edges_.empty(), "--edges: expected with --identify only");
     cli::refuse_if(!identifies && !force_on_.empty(), "--force-on: expected with --identify only");
     cli::refuse_if(!points_path_.empty() && table_path_.empty(), "--points: expected with --table only");
-    cli::refuse_if(!table_path_.empty() && points_path_.empty() && !(depth_ && speed_),
+    cli::refuse_if(!table_path_.empty() && !learns && points_path_.empty() && !(depth_ && speed_),
                    "--table: expected --points, or --depth and --speed");
     cli::refuse_if((request_.passes || request_.steps || request_.from_rest) && table_path_.empty(),
                    "--passes, --steps, --from-rest: expected with --table only");
@@ -152,10 +176,34 @@ class CutForce : public cli::Tool {
     write_document(main_output(), document::identified_cut_to_json(identified));
   }
 
-  std::optional<double> depth_, speed_;
-  std::optional<int> harmonics_;
+  void learn(const document::Input& input) {
+    document::TestedCutDocument document;
+    document.cut = input.document;
+    document.prior = document::cut_from_json(input.document, input.source);
+    if (document.prior.deviations.kt_n_per_m2 == 0 && document.prior.deviations.kr_n_per_m2 == 0)
+      throw document::DataError(input.source.name, "/kt_std_n_per_mm2", "",
+                                "expected a standard deviation of Kt or Kr above 0: how far they may be off");
+    const document::Input modes = read_input(table_path_, cli::InputForm::kJson);
+    const dynamics::ModalModel model = document::modal_table_from_json(modes.document, modes.source);
+    const document::Input table = read_input(tested_path_, cli::InputForm::kByContent);
+    document.cuts = document::measured_cuts(table.source, table.document);
+    std::erase_if(document.cuts, [](const auto& cut) { return !cut.observed_stable; });
+    if (document.cuts.empty())
+      throw document::DataError(table.source.name, "", "", "expected cuts that were observed, one at least");
+    if (samples_) document.request.samples = *samples_;
+    if (seed_) document.request.seed = static_cast<unsigned>(*seed_);
+    if (wrong_share_) document.request.wrong_share = *wrong_share_;
+    cli::ProgressBar bar("cut-force: samples", !quiet());
+    learn_from_tested_cuts(
+        model, modes.source, threads(), [&](double share) { bar.show(share); }, document);
+    for (const std::string& warning : posterior_warnings(document.posterior)) warn(warning);
+    write_document(main_output(), document::tested_cut_to_json(document));
+  }
+
+  std::optional<double> depth_, speed_, wrong_share_;
+  std::optional<int> harmonics_, samples_, seed_;
   PointRequest request_;
-  std::string table_path_, points_path_, forces_path_, edges_, force_on_;
+  std::string table_path_, points_path_, tested_path_, forces_path_, edges_, force_on_;
   CLI::Option* identify_option_ = nullptr;
 };
 

@@ -14,7 +14,8 @@ using milling::CoefficientVerdict;
 constexpr std::array<const char*, milling::kCoefficients> kSymbols = {"Kt", "Kr", "Kte", "Kre", "Ka", "Kae"};
 constexpr std::array<double, milling::kCoefficients> kUnits = {1e6, 1e6, 1e3, 1e3, 1e6, 1e3};
 
-constexpr double kCoarse = 0.01;  // an error of the growth from which on there is a warning
+constexpr double kFewSamples = 100;  // effective: an outer quantile then rests on two or three
+constexpr double kCoarse = 0.01;     // an error of the growth from which on there is a warning
 
 const char* unit_text(int c) { return kUnits[c] > 1e5 ? " N/mm2" : " N/mm"; }
 
@@ -134,6 +135,22 @@ std::vector<std::string> point_warnings(const std::vector<document::SimulatedPoi
                           "points the growth is below 1, and the motion has not settled: "
                           "near the limit, or another motion beside the stable one (--passes, --from-rest)"));
   return warnings;
+}
+
+std::string contradiction_text(const milling::CoefficientPosterior& posterior,
+                               const milling::PosteriorRequest& request, std::size_t cuts) {
+  return "the tested cuts contradict the modal table and the deviations of Kt and Kr: only a share of " +
+         number_text(posterior.as_unlikely_share, 2) +
+         " of what these would show is as improbable; the Kt and Kr that agree best leave " +
+         std::to_string(posterior.least_contradicting) + " of " + std::to_string(cuts) +
+         " cuts unexplained, of which " + number_text(request.wrong_share * static_cast<double>(cuts), 2) +
+         " may be wrong: another tool, larger deviations, or more wrong observations (--wrong-share)?";
+}
+
+std::vector<std::string> posterior_warnings(const milling::CoefficientPosterior& posterior) {
+  if (posterior.effective_samples >= kFewSamples) return {};
+  return {"the answer rests on " + number_text(posterior.effective_samples, 2) +
+          " effective samples: more are needed (--samples)"};
 }
 
 }  // namespace stablecut

@@ -7,6 +7,7 @@
 
 #include "document/kinds/cut_force_json.h"
 #include "milling/force_identification.h"
+#include "milling/tested_coefficients.h"
 
 namespace stablecut {
 
@@ -22,5 +23,11 @@ std::vector<std::string> identification_warnings(const milling::ForceIdentificat
 /// Warnings of simulated points; `source` is the name of their table.
 std::vector<std::string> point_warnings(const std::vector<document::SimulatedPoint>& points,
                                         const std::string& source);
+
+/// Why tested cuts are refused.
+std::string contradiction_text(const milling::CoefficientPosterior& posterior,
+                               const milling::PosteriorRequest& request, std::size_t cuts);
+/// What should be said of an answer.
+std::vector<std::string> posterior_warnings(const milling::CoefficientPosterior& posterior);
 
 }  // namespace stablecut

@@ -155,8 +155,16 @@ SimulationResult simulate_cut(const TipStructure& structure, const Cutter& cutte
   const long from = end - static_cast<long>(looked_at) * cut.cycle();
   Record record(cut, load, from, end - teeth / passes_of_period);
   SimulatedCut::Contact contact;
+  double first_step = 0, last_step = 0;  // of the modes from cycle to cycle
+  Eigen::ArrayXcd cycle_before = state.modes;
   while (state.period < end) {
     if (state.period == from) contact = {};
+    if ((state.period - start) % cut.cycle() == 0 && state.period > start) {
+      const double step = (state.modes - cycle_before).matrix().norm();
+      if (state.period - start <= end - from) first_step = std::max(first_step, step);
+      if (state.period > from) last_step = std::max(last_step, step);
+      cycle_before = state.modes;
+    }
     cut.advance(state, contact, [&](const SimulatedNode& node) { record.add(node); });
     if (record.farthest_tip_m < kFarthest) continue;
     result.passes = static_cast<int>(state.period - start) * passes_of_period;
@@ -180,8 +188,11 @@ SimulationResult simulate_cut(const TipStructure& structure, const Cutter& cutte
   const Eigen::Index shifted = motion.cols() - count;
   const double change =
       std::sqrt((motion.rightCols(shifted) - motion.leftCols(shifted)).colwise().squaredNorm().maxCoeff());
-  result.settled = looked_at > 1 && change <= kSettled * std::max(result.peak_vibration_m,
-                                                                  kStill * result.mean_deflection_m.norm());
+  // A small push that grows is not yet large.
+  const bool grows = last_step > std::max(first_step, kRepeats * state.modes.matrix().norm());
+  result.settled =
+      looked_at > 1 && !grows &&
+      change <= kSettled * std::max(result.peak_vibration_m, kStill * result.mean_deflection_m.norm());
   if (!result.settled && looked_at > 1) {
     const SpectralLine line =
         largest_line(motion, count, static_cast<double>(motion.cols()) * kTwoPi * speed / record.turned);

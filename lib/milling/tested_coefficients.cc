@@ -113,22 +113,58 @@ double normal_density(const Eigen::Vector2d& place, const Moments& of) {
          (kTwoPi * std::sqrt(of.covariance.determinant()));
 }
 
-// Observations as the samples would give them: how often they are no likelier than these. Half of the samples
-// are the prior's own, from which they are drawn; one does not vouch for what it gave itself.
+// What samples say, each once, with the prior's mass of those that say it.
+struct Patterns {
+  std::vector<Bits> said;
+  std::vector<double> mass;
+  std::vector<std::size_t> of_sample;
+
+  explicit Patterns(const Samples& samples) {
+    std::map<Bits, std::size_t> known;
+    for (std::size_t s = 0; s < samples.said.size(); ++s) {
+      const auto [at, is_new] = known.try_emplace(samples.said[s], said.size());
+      if (is_new) {
+        said.push_back(samples.said[s]);
+        mass.push_back(0);
+      }
+      mass[at->second] += samples.prior_over_drawn[s];
+      of_sample.push_back(at->second);
+    }
+  }
+};
+
+// How well they explain observations.
+struct Explained {
+  double evidence = 0;       // mean likelihood
+  double contradicting = 0;  // posterior mean
+};
+
+// `less` of the mass of one pattern does not count.
+Explained explained(const Patterns& patterns, const std::vector<double>& likelihood, const Bits& bits,
+                    std::size_t one = 0, double less = 0) {
+  Explained result;
+  double sum = 0, all = 0;
+  for (std::size_t p = 0; p < patterns.said.size(); ++p) {
+    const double mass = patterns.mass[p] - (p == one ? less : 0);
+    const int contradicting = different(patterns.said[p], bits);
+    sum += mass * likelihood[contradicting];
+    all += mass;
+    result.contradicting += mass * likelihood[contradicting] * contradicting;
+  }
+  result.evidence = sum / all;
+  result.contradicting /= sum;
+  return result;
+}
+
+// Observations as the samples would give them: how often they are no likelier than these, or contradict as
+// much. Half of the samples are the prior's own, from which they are drawn; one does not vouch for what it
+// gave itself. The smaller share counts, twice since there are two [Dunn1961].
 double as_unlikely_share(const Samples& samples, const std::vector<double>& likelihood, const Bits& observed,
                          std::size_t cuts, const PosteriorRequest& request) {
-  const auto evidence = [&](const Bits& bits, std::size_t but) {
-    double sum = 0, all = 0;
-    for (std::size_t s = 0; s < samples.said.size(); ++s) {
-      if (s == but) continue;
-      sum += samples.prior_over_drawn[s] * likelihood[different(samples.said[s], bits)];
-      all += samples.prior_over_drawn[s];
-    }
-    return sum / all;
-  };
-  const double here = evidence(observed, samples.said.size()) * (1 + kSameSize);
+  const Patterns patterns(samples);
+  const Explained here = explained(patterns, likelihood, observed);
   std::mt19937_64 generator(request.seed);
-  int as_unlikely = 0;
+  int no_likelier = 0, no_nearer = 0;
   for (int i = 0; i < kImagined; ++i) {
     const auto from =
         static_cast<std::size_t>(numerics::uniform(generator, 0, static_cast<double>(samples.of_prior)));
@@ -137,9 +173,12 @@ double as_unlikely_share(const Samples& samples, const std::vector<double>& like
       if (numerics::uniform(generator, 0, 1) < request.wrong_share)
         imagined[c / kBits] ^= std::uint64_t{1} << c % kBits;
     }
-    as_unlikely += evidence(imagined, from) <= here;
+    const Explained there =
+        explained(patterns, likelihood, imagined, patterns.of_sample[from], samples.prior_over_drawn[from]);
+    no_likelier += there.evidence <= here.evidence * (1 + kSameSize);
+    no_nearer += there.contradicting >= here.contradicting * (1 - kSameSize);
   }
-  return (1.0 + as_unlikely) / (1 + kImagined);
+  return std::min(1.0, 2.0 * (1 + std::min(no_likelier, no_nearer)) / (1 + kImagined));
 }
 
 }  // namespace
@@ -153,6 +192,11 @@ Verdicts verdicts_of(const std::vector<SampledCut>& samples, const SampledCut& m
   for (const auto& [speed, at] : at_speed) {
     double deepest = 0;
     for (const std::size_t i : at) deepest = std::max(deepest, cuts[i].depth_m);
+    if (deepest == 0) {  // nothing is cut
+      for (const std::size_t i : at) verdicts.row(static_cast<Eigen::Index>(i)).setConstant(true);
+      ++done;
+      continue;
+    }
     const StabilityChart chart =
         stability_chart(mean.structure, mean.cutter, {speed}, {deepest}, {}, false, threads);
     parallel_for(

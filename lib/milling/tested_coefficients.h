@@ -36,8 +36,9 @@ struct CoefficientPosterior {
   double effective_samples = 0;
   double contradicting = 0;     ///< observations that are not the model's verdict: posterior mean
   int least_contradicting = 0;  ///< of the sample that agrees best
-  /// The share of sets of observations, drawn from the prior with as many wrong ones as stated, that are no
-  /// likelier than these: a p value. Near 0 the cuts contradict the prior, or more of them are wrong.
+  /// Of sets of observations drawn from the prior, with as many wrong ones as stated, the share that is no
+  /// likelier than these, or that contradicts the samples as much: a p value of both. Near 0 the cuts
+  /// contradict the prior, or more of them are wrong.
   double as_unlikely_share = 0;
   Eigen::VectorXd stable_share;  ///< [cuts] posterior probability that the model is stable
 };

@@ -26,8 +26,8 @@ inline std::optional<double> quantile(const std::vector<double>& sorted, double 
   return low + std::clamp(place - below, 0.0, 1.0) * (high - low);
 }
 
-/// The same of values in any order that have weights, at least one of them above 0: each stands for the middle
-/// of its share of the weight.
+/// The same of values in any order that have weights, at least one of them above 0: each stands for the
+/// middle of its share of the weight.
 inline double weighted_quantile(const std::vector<double>& values, const std::vector<double>& weights,
                                 double share) {
   std::vector<std::size_t> order;

@@ -47,6 +47,7 @@ void describe(Json& item, const CutForceDocument& document, const MeasuredCut& c
   item["growth_error"] = result.growth.error;
   item["stable"] = result.stable();
   item["settled"] = result.settled;
+  item["keeps_contact"] = result.keeps_contact;
   if (result.ran_away) item["ran_away"] = true;
   item["teeth_followed"] = result.passes;
   item["steps_per_tooth"] = result.steps_per_tooth;

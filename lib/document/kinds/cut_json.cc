@@ -176,7 +176,8 @@ CutDocument cut_from_json(const Json& document, const Source& source, Coefficien
                     "kre_std_n_per_mm",
                     "kae_std_n_per_mm",
                     "kt_kr_correlation",
-                    "identification"});
+                    "identification",
+                    "posterior"});
   CutDocument cut;
   cut.cutter.teeth = root.at("teeth").integer(1, kMostTeeth);
   const bool all = needed == CoefficientsNeeded::kAll;
