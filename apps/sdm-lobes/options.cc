@@ -30,13 +30,12 @@ void CutOptions::declare(CLI::App& app) {
 }
 
 document::Json CutOptions::read_document(const Reader& read_input) {
-  const bool given = std::any_of(declared_.begin(), declared_.end(),
-                                 [](const CLI::Option* option) { return option->count() > 0; });
   if (!path.empty()) {
-    cli::refuse_if(given, "--cut: expected either a cut document or --teeth --kt --kr --milling --immersion");
     const document::Input input = read_input(path, cli::InputForm::kJson);
     source_ = input.source;
-    return input.document;
+    document::Json cut = input.document;
+    if (cut.is_object()) put_options(cut);
+    return cut;
   }
   for (const CLI::Option* option : declared_) {
     cli::refuse_if(
@@ -44,8 +43,21 @@ document::Json CutOptions::read_document(const Reader& read_input) {
         option->get_name() + ": missing: expected --cut, or --teeth --kt --kr --milling --immersion");
   }
   source_.name = "options";
-  return {{"format", "stablecut/cut/1"}, {"teeth", *teeth_},    {"kt_n_per_mm2", *kt_},
-          {"kr_n_per_mm2", *kr_},        {"milling", milling_}, {"radial_immersion", *immersion_}};
+  document::Json cut = {{"format", "stablecut/cut/1"}};
+  put_options(cut);
+  return cut;
+}
+
+void CutOptions::put_options(document::Json& cut) const {
+  if (teeth_) cut["teeth"] = *teeth_;
+  if (kt_) cut["kt_n_per_mm2"] = *kt_;
+  if (kr_) cut["kr_n_per_mm2"] = *kr_;
+  if (milling_.empty() && !immersion_) return;
+  // The same arc in other words.
+  cut.erase("entry_deg");
+  cut.erase("exit_deg");
+  if (!milling_.empty()) cut["milling"] = milling_;
+  if (immersion_) cut["radial_immersion"] = *immersion_;
 }
 
 void CutOptions::read(const Reader& read_input) {

@@ -14,7 +14,7 @@
 
 namespace stablecut {
 
-/// The cut: a document, or the options that stand in its place.
+/// The cut: a document, and the options that stand in the place of its fields or of all of it.
 class CutOptions {
  public:
   using Reader = std::function<document::Input(const std::string& path, cli::InputForm form)>;
@@ -24,8 +24,8 @@ class CutOptions {
   /// Declares --teeth, --kt, --kr, --milling and --immersion; the object must stay where it is until they
   /// have been parsed.
   void declare(CLI::App& app);
-  /// Reads --cut, or makes the document of the options. Throws WrongUsage where both or neither are given or
-  /// an option's value is wrong, DataError for what a file holds.
+  /// Reads --cut and puts the options in it, or makes the document of the options alone. Throws WrongUsage
+  /// where one of them is missing then or its value is wrong, DataError for what a file holds.
   void read(const Reader& read_input);
 
   /// Throws WrongUsage where the method is not one for this cutter.
@@ -36,6 +36,8 @@ class CutOptions {
 
  private:
   document::Json read_document(const Reader& read_input);
+  /// Puts what options give in the place of the cut's own fields.
+  void put_options(document::Json& cut) const;
 
   std::optional<int> teeth_;
   std::optional<double> kt_, kr_, immersion_;

@@ -27,10 +27,17 @@ check_jq "limit only: the same limit" limit.json '[.limit, $one[0].limit] | tran
 
 sdm-lobes "$table" --teeth 2 --kt 689 --kr 267 --milling up --immersion 0.25 "${small[@]}" -o options.json
 check "a cut by options is the cut by document" cmp <(jq .spectral_radius one.json) <(jq .spectral_radius options.json)
+sdm-lobes "$table" --cut "$cut" --kt 900 --immersion 0.5 "${small[@]}" -o changed.json
+jq '.kt_n_per_mm2 = 900 | .radial_immersion = 0.5' "$cut" >changed-cut.json
+sdm-lobes "$table" --cut changed-cut.json "${small[@]}" -o by-document.json
+check "an option stands in the place of the document's field" cmp <(jq 'del(.provenance)' changed.json) <(jq 'del(.provenance)' by-document.json)
 jq 'del(.milling, .radial_immersion) | .entry_deg = 0 | .exit_deg = 60' "$cut" >angles.json
 sdm-lobes "$table" --cut angles.json "${small[@]}" -o angles-out.json
 check_jq "a cut by angles is the cut by immersion" angles-out.json '[.spectral_radius, $one[0].spectral_radius]
   | map(flatten) | transpose | all((.[0] - .[1]) | fabs < 1e-9)' --slurpfile one one.json
+sdm-lobes "$table" --cut angles.json --milling up --immersion 0.25 "${small[@]}" -o arc.json
+check "and in the place of its angles" cmp <(jq .spectral_radius one.json) <(jq .spectral_radius arc.json)
+refused 65 "^sdm-lobes: angles.json: /milling: missing" sdm-lobes "$table" --cut angles.json --immersion 0.25 "${small[@]}"
 jq '.feed_angle_deg = 360' "$cut" >turned.json
 sdm-lobes "$table" --cut turned.json "${small[@]}" -o turned-out.json
 check_jq "a full turn of the feed changes nothing" turned-out.json '[.spectral_radius, $one[0].spectral_radius]
