@@ -24,8 +24,14 @@ row a 1 0; printf 'a\t1\nb\t2\n' >ours.tsv; refused 1 "^beside: b: not among the
 for study in thesis yi liu cell; do
   check "$study: what would be made" make -C "$studies/$study" OUT="$PWD/out" TOOLS=/nonexistent -n report >/dev/null 2>&1
 done
-make -C "$studies/liu" OUT="$PWD/out" TOOLS=/nonexistent report >.log 2>&1
-check "Liu et al.: a page: $(tail -n 3 .log)" test $? -eq 0 -a -s out/liu/report.html
-check "with its pictures" test "$(grep -o 'src="data:image/png;base64,' out/liu/report.html | wc -l)" -eq 5
-check "and its numbers" grep -q '<td align="right">97062227</td>' out/liu/report.html
-check "what is there is not made again" make -C "$studies/liu" OUT="$PWD/out" TOOLS=/nonexistent -q "$PWD/out/liu/report.html"
+# As installed: a folder that is no checkout; the results come to where make is called.
+mkdir -p share
+cp -r "$SOURCE/scripts" "$SOURCE/schemas" "$SOURCE/testdata" share
+make -C share/scripts/studies/liu TOOLS=/nonexistent report >.log 2>&1
+check "Liu et al.: a page: $(tail -n 3 .log)" test $? -eq 0 -a -s out/studies/liu/report.html
+check "with its pictures" test "$(grep -o 'src="data:image/png;base64,' out/studies/liu/report.html | wc -l)" -eq 5
+check "and its numbers" grep -q '<td align="right">97062227</td>' out/studies/liu/report.html
+check "what is there is not made again" make -C share/scripts/studies/liu TOOLS=/nonexistent -q "$PWD/out/studies/liu/report.html"
+make -C "$studies/liu" TOOLS=/nonexistent -n -B report >.log
+check "in a checkout they stand in its out" grep -qx "mkdir -p $SOURCE/out/studies/liu" .log
+check "all four at once" test "$(make -C share/scripts/studies OUT="$PWD/other" TOOLS=/nonexistent -n report | grep -c "mkdir -p $PWD/other/")" -eq 4

@@ -97,7 +97,11 @@ def round_edges(values, count=10):
 
 
 def chart(title, x, y, curves=(), grid=None, equal=False, note=None):
-    found = {"title": title, "x": x, "y": y, "curves": list(curves)}
+    """Curves without a value are left out; without any and without cells there is nothing to draw, which is None."""
+    curves = [one for one in curves if any(value is not None for value in one["y"])]
+    if not curves and not grid:
+        return None
+    found = {"title": title, "x": x, "y": y, "curves": curves}
     if grid:
         found["cells"] = grid
     if equal:

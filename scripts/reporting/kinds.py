@@ -9,7 +9,7 @@ TWO_PI = 2 * math.pi
 
 
 def section(title, facts=(), chart_list=(), tables=()):
-    return {"title": title, "facts": list(facts), "charts": list(chart_list), "tables": list(tables)}
+    return {"title": title, "facts": list(facts), "charts": [one for one in chart_list if one], "tables": list(tables)}
 
 
 def table(title, head, rows):
@@ -88,8 +88,10 @@ def lobes(document):
     grid = rows and charts.cells("spectral radius", content["speed_rpm"], content["depth_mm"], rows,
                                  [0.9, 0.95, 0.98, 1, 1.02, 1.05, 1.1, 1.2],
                                  charts.colours_of(charts.STABLE, 4) + charts.colours_of(charts.UNSTABLE, 5), columns)
-    found.append(chart("Stability lobes: " + _cut_words(content["cut"]), speed, depth, _lobes_curves(content), grid,
-                       note="Colour: spectral radius of a tooth period; from 1 on the cut chatters."))
+    note = "Colour: spectral radius of a tooth period; from 1 on the cut chatters. " if rows else ""
+    if all(entry["depth_mm"] is None and "not_resolved" not in entry for entry in content["limit"]):
+        note += "Stable over the whole chart."
+    found.append(chart("Stability lobes: " + _cut_words(content["cut"]), speed, depth, _lobes_curves(content), grid, note=note or None))
     chattering = [entry for entry in content["limit"] if entry.get("chatter_frequency_hz") is not None]
     if chattering:
         curves = []
@@ -104,7 +106,7 @@ def lobes(document):
         alone = [one for one in content["per_mode"] if any(entry["depth_mm"] is not None for entry in one["limit"])]
         silent = [str(one["mode"]) for one in content["per_mode"] if one not in alone]
         curves = [_limit_curve(one, f"mode {one['mode']}", i + 1) for i, one in enumerate(alone)]
-        found.append(chart("Limit of each mode alone", speed, depth, [_limit_curve(content, "all modes", 0) | {"width": 3}] + curves,
+        found.append(alone and chart("Limit of each mode alone", speed, depth, [_limit_curve(content, "all modes", 0) | {"width": 3}] + curves,
                            note=f"Without a limit in the chart: mode {', '.join(silent)}." if silent else None))
     if content.get("probability_stable"):
         grid = charts.cells("probability that the cut is stable", content["speed_rpm"], content["depth_mm"], content["probability_stable"],

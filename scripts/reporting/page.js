@@ -61,7 +61,12 @@
     const edges = Array.from({length: cells.y.length + 1}, (_, i) => edge(i));
     const sets = cells.colours.map((colour, step) => ({
       type: "bar", label: cells.steps[step], data: [], backgroundColor: colour, hoverBackgroundColor: colour, borderWidth: 0, grouped: false,
-      barPercentage: 1, categoryPercentage: 1, borderSkipped: false, pointStyle: "rect", order: 2000, quiet: !cells.steps[step],
+      // As wide as the grid's step: by itself a bar is no wider than the distance of two ticks.
+      barThickness: (context) => {
+        const x = context.chart.scales.x;
+        return cells.x.length < 2 ? x.width : Math.abs(x.getPixelForValue(cells.x[1]) - x.getPixelForValue(cells.x[0]));
+      },
+      borderSkipped: false, pointStyle: "rect", order: 2000, quiet: !cells.steps[step],
       hoverLines: (i, set) => {
         const [column, row] = set.data[i].cell;
         return lines([[chart.x.label, cells.x[column]], [chart.y.label, cells.y[row]], [cells.name, cells.rows[row][column]]]

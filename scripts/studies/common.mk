@@ -6,12 +6,10 @@
 #
 # make: documents, pictures and numbers; make report: the page. Everything is written to $(out).
 here := $(dir $(abspath $(firstword $(MAKEFILE_LIST))))
-studies := $(dir $(abspath $(lastword $(MAKEFILE_LIST))))
-root := $(abspath $(studies)/../..)
+include $(dir $(abspath $(lastword $(MAKEFILE_LIST))))where.mk
 study := $(notdir $(patsubst %/,%,$(here)))
 scripts := $(root)/scripts
 data := $(root)/testdata
-OUT ?= $(root)/out/studies
 out := $(OUT)/$(study)
 # The built tools, else those in PATH.
 TOOLS ?= $(root)/build/bin
