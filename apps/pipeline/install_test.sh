@@ -16,6 +16,9 @@ if [ -e /usr/share/javascript/chart.js ]; then
   installed stablecut-report lobes.json -o page.html
   check "a page" grep -q "</html>" page.html
 fi
+if command -v make >/dev/null; then
+  check "the studies find their tools and data" installed make -C "$share/scripts/studies" OUT="$PWD/studies" -n report >/dev/null
+fi
 check "every tool's page in the manual" test "$(cd "$prefix/share/man/man1" && echo *.1)" = "$(cd "$prefix/bin" && for tool in *; do [ -L "$tool" ] || echo "$tool.1"; done | xargs)"
 for tool in "$prefix"/bin/*; do
   [ -L "$tool" ] || { name=$(basename "$tool")

@@ -8,8 +8,8 @@ include(CMakePackageConfigHelpers)
 
 set(share ${CMAKE_INSTALL_DATADIR}/stablecut)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scripts/ DESTINATION ${share}/scripts USE_SOURCE_PERMISSIONS
-  FILES_MATCHING PATTERN "plot*" PATTERN "import-urdf" PATTERN "report" PATTERN "schema.jq" PATTERN "reporting/*"
-  PATTERN "studies/*" PATTERN "cmake" EXCLUDE PATTERN "derive" EXCLUDE PATTERN "__pycache__" EXCLUDE)
+  FILES_MATCHING PATTERN "plot*" PATTERN "import-urdf" PATTERN "report" PATTERN "schema.jq"
+  REGEX "scripts/(reporting|studies)/" PATTERN "cmake" EXCLUDE PATTERN "derive" EXCLUDE PATTERN "__pycache__" EXCLUDE)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/schemas DESTINATION ${share} FILES_MATCHING PATTERN "*.schema.json")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/testdata DESTINATION ${share})
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/LICENSE
@@ -59,6 +59,6 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "jq, gnuplot-nox, python3, libjs-chart.js, make, man-db, bash-completion")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libeigen3-dev, libceres-dev, libboost-dev, nlohmann-json3-dev")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "jq, gnuplot-nox, python3, python3-jsonschema, python3-markdown, libjs-chart.js, make, man-db, bash-completion")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "parallel, slurm-client, libeigen3-dev, libceres-dev, libboost-dev, nlohmann-json3-dev")
 include(CPack)
