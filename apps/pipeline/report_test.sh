@@ -59,6 +59,7 @@ printf '# A title\n\n%s\n\n<b onclick="window.pwned=1">bold</b> [link](javascrip
 check "hostile labels make a page" test -s evil.html
 check "three scripts, of which one is data" test "$(grep -o '<script' evil.html | wc -l)" -eq 3
 check "no element of a label" test "$(grep -ciE '<(img|svg|b)[ >]' evil.html)" -eq "$(grep -ciE '<b>' evil.html)"
+check "no link but to the web" test "$(grep -o '<a href="[^"]*"' evil.html | grep -vcE '"(https?://|#)')" -eq 0
 check "scripts are named by their sums" grep -q "script-src &#39;sha256-" evil.html
 
 # Text with pictures.
@@ -87,11 +88,28 @@ sed 's/"convergence": *[0-9.e+-]*/"convergence": NaN/' lobes.json >nan.json
 refused 65 '^report: nan.json: not JSON: NaN: expected a finite number' "$report" nan.json
 sed 's/"method"/"method": "sdm", "method"/' lobes.json >twice.json
 refused 65 '^report: twice.json: not JSON: a key stands twice' "$report" twice.json
+jq '.spectral_radius[2] |= .[1:]' lobes.json >short.json
+refused 65 '^report: short.json: /spectral_radius/2: 11 values: expected 12' "$report" short.json
+jq '.h[0].im |= .[1:]' tap.json >short.json
+refused 65 '^report: short.json: /h/0/im: 799 values: expected 800' "$report" short.json
+jq '.score |= .[1:]' map.json >short.json
+refused 65 '^report: short.json: /score: 13 values: expected 14' "$report" short.json
+sed 's/"convergence": *[0-9.e+-]*/"convergence": 1e999/' lobes.json >large.json
+refused 65 '^report: large.json: not JSON: 1e999: expected a finite number' "$report" large.json
+jq '.label = "HALF"' path.json | sed 's/HALF/\\ud800/' >half.json
+"$report" half.json -o half.html; check "half a character in a label" test -s half.html
+{ printf '['; head -c 20000 /dev/zero | tr '\0' '['; } >deep.json
+refused 65 '^report: deep.json: not JSON' "$report" deep.json
+jq '.speed_rpm[3] += 300' lobes.json >uneven.json
+"$report" uneven.json -o uneven.html; check "an uneven grid is said, not drawn" grep -q 'not evenly spaced' uneven.html
+# No mode has a limit, and few columns.
+sdm-lobes "$data/thesis-table-6-2.json" --cut "$data/thesis-cut.json" --speed 9000:12000:3 --depth 0:0.2:3 --modes 1 --per-mode --quiet -o stable.json
+"$report" stable.json -o stable.html; check "stable everywhere is said" grep -q 'Stable over the whole chart' stable.html
 check "--help" "$report" --help >/dev/null
 "$report" large.html 2>/dev/null; check "nothing written where something is wrong" test ! -e x.html
 
 # In a browser, where there is one.
-"$scripts/test-report" all.html evil.html large.html >browser 2>.err
+"$scripts/test-report" all.html evil.html large.html stable.html uneven.html >browser 2>.err
 status=$?
 if [ $status -eq 77 ]; then echo "skipped: the browser: $(cat .err)"
 else

@@ -73,8 +73,16 @@ def colours_of(stops, count):
     return [_mixed(stops, step / max(count - 1, 1)) for step in range(count)]
 
 
+def _even(values):
+    steps = [b - a for a, b in zip(values, values[1:])]
+    return not steps or min(steps) > 0 and max(steps) - min(steps) <= 1e-3 * max(steps)
+
+
 def cells(name, x, y, rows, edges, colours, hover=None):
-    """Values [y][x] in the steps between the edges; below the first and above the last edge count too: a colour each."""
+    """Values [y][x] in the steps between the edges; below the first and above the last edge count too: a colour each. None where the
+    grid is not even: its cells would lie in wrong places."""
+    if not (_even(x) and _even(y)):
+        return None
     steps = [f"below {edges[0]:g}"] + [f"{a:g} to {b:g}" for a, b in zip(edges, edges[1:])] + [f"above {edges[-1]:g}"]
     used = {bisect.bisect_right(edges, value) for row in rows for value in row if value is not None}
     return {"name": name, "x": shorts(x, 8), "y": shorts(y, 8), "rows": [shorts(row, 5) for row in rows], "edges": shorts(edges),

@@ -3,6 +3,7 @@
 import dataclasses
 import hashlib
 import json
+import math
 import pathlib
 import sys
 
@@ -36,6 +37,18 @@ def _refuse_constant(text):
     raise ValueError(f"{text}: expected a finite number")
 
 
+def _finite(text):
+    value = float(text)
+    if not math.isfinite(value):
+        raise ValueError(f"{text[:40]}: expected a finite number")
+    return value
+
+
+def _whole(text):
+    _finite(text)
+    return int(text)
+
+
 def _unique(pairs):
     found = dict(pairs)
     if len(found) != len(pairs):
@@ -47,6 +60,38 @@ def _pointer(error):
     return "".join("/" + str(step).replace("~", "~0").replace("/", "~1") for step in error.absolute_path)
 
 
+def _lists(kind, content):
+    """What a schema cannot say: (pointer, list, the length that it has to have)."""
+    def grid(pointer, rows, down, across):
+        yield pointer, rows, len(content[down])
+        for i, row in enumerate(rows):
+            yield f"{pointer}/{i}", row, len(content[across])
+
+    if kind == "lobes":
+        grids = {"spectral_radius": content.get("spectral_radius"), "probability_stable": content.get("probability_stable")}
+        grids |= {f"surface/{name}": rows for name, rows in content.get("surface", {}).items()}
+        for name, rows in grids.items():
+            if rows is not None:
+                yield from grid(f"/{name}", rows, "depth_mm", "speed_rpm")
+    elif kind == "pose-map":
+        for name, rows in content.items():
+            if name in ("score", "redundancy_deg", "branch") or name.startswith("stiffness_"):
+                yield from grid(f"/{name}", rows, "y_mm", "x_mm")
+    elif kind == "frf":
+        for i, entry in enumerate(content["h"]):
+            for part in ("re", "im"):
+                yield f"/h/{i}/{part}", entry[part], len(content["frequency_hz"])
+    elif kind == "stabilization":
+        for i, values in enumerate(content["singular_values_m_per_n"]):
+            yield f"/singular_values_m_per_n/{i}", values, len(content["frequency_hz"])
+    elif kind == "cut-force" and "wave" in content:
+        for name, values in content["wave"].items():
+            yield f"/wave/{name}", values, len(content["wave"]["turn_deg"])
+    elif kind == "pose" and "redundancy_sweep" in content:
+        sweep = content["redundancy_sweep"]
+        yield "/redundancy_sweep/score", sweep["score"], len(sweep["redundancy_deg"])
+
+
 def read_document(path):
     """The document in a file, or in standard input for "-". Raises Refused."""
     shown = "<stdin>" if path == "-" else path
@@ -55,7 +100,8 @@ def read_document(path):
     except OSError:
         raise Refused(f"{shown}: cannot be read", 66) from None
     try:
-        content = json.loads(raw.decode(), parse_constant=_refuse_constant, object_pairs_hook=_unique)
+        content = json.loads(raw.decode(), parse_constant=_refuse_constant, parse_float=_finite, parse_int=_whole,
+                             object_pairs_hook=_unique)
     except (ValueError, RecursionError) as error:
         raise Refused(f"{shown}: not JSON: {str(error)[:160]}") from None
     found = content.get("format") if isinstance(content, dict) else None
@@ -68,5 +114,8 @@ def read_document(path):
         while error.context:
             error = max(error.context, key=lambda inner: len(inner.absolute_path))
         raise Refused(f"{shown}: {_pointer(error) or '/'}: {' '.join(error.message.split())[-160:]}")
+    for pointer, values, length in _lists(found.split("/")[1], content):
+        if len(values) != length:
+            raise Refused(f"{shown}: {pointer}: {len(values)} values: expected {length}")
     name = "standard input" if path == "-" else pathlib.PurePath(path).name
     return Document(name, found.split("/")[1], hashlib.sha256(raw).hexdigest(), content)

@@ -88,7 +88,9 @@ def lobes(document):
     grid = rows and charts.cells("spectral radius", content["speed_rpm"], content["depth_mm"], rows,
                                  [0.9, 0.95, 0.98, 1, 1.02, 1.05, 1.1, 1.2],
                                  charts.colours_of(charts.STABLE, 4) + charts.colours_of(charts.UNSTABLE, 5), columns)
-    note = "Colour: spectral radius of a tooth period; from 1 on the cut chatters. " if rows else ""
+    note = "Colour: spectral radius of a tooth period; from 1 on the cut chatters. " if grid else ""
+    if rows and not grid:
+        note = "The chart's speeds or depths are not evenly spaced: its spectral radii are not drawn. "
     if all(entry["depth_mm"] is None and "not_resolved" not in entry for entry in content["limit"]):
         note += "Stable over the whole chart."
     found.append(chart("Stability lobes: " + _cut_words(content["cut"]), speed, depth, _lobes_curves(content), grid, note=note or None))

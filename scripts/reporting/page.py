@@ -23,7 +23,9 @@ def _escaped(value):
     if isinstance(value, bool):
         value = "yes" if value else "no"
     long = isinstance(value, float) or isinstance(value, int) and abs(value) >= 1e7
-    return html.escape("" if value is None else f"{value:.6g}" if long else str(value))
+    text = "" if value is None else f"{value:.6g}" if long else str(value)
+    # Half a character, of a file name or of JSON's escapes, has no place in a page.
+    return html.escape(text.encode("utf-8", "replace").decode())
 
 
 def _data(value):
@@ -81,7 +83,7 @@ def _text(path):
         source = pathlib.Path(path).read_text()
     except (OSError, UnicodeDecodeError):
         raise Refused(f"{path}: cannot be read", 66) from None
-    converter = markdown.Markdown(extensions=["tables", "attr_list"], extension_configs={"tables": {"use_align_attribute": True}})
+    converter = markdown.Markdown(extensions=["tables"], extension_configs={"tables": {"use_align_attribute": True}})
     converter.preprocessors.deregister("html_block")
     converter.inlinePatterns.deregister("html")
 
@@ -96,7 +98,8 @@ def _text(path):
         except OSError:
             raise Refused(f"{path}: {name}: cannot be read", 66) from None
 
-    return re.sub(r'src="([^"]*)"', packed, converter.convert(source))
+    page = re.sub(r'<a href="(?!https?://|#)[^"]*"', "<a", converter.convert(source))
+    return re.sub(r'src="([^"]*)"', packed, page)
 
 
 def sections(documents):
