@@ -18,17 +18,17 @@ options=(--limit-only --speed 9000:12000:4 --depth 0:3:2)
 # A sdm-lobes that writes down its tasks, and fails at the task that the file "fail" names.
 tool=$(command -v sdm-lobes)
 mkdir path
-printf '#!/bin/sh\nfor last; do :; done\nid=$(basename "$last" .json)\necho "$id" >>%q\nif [ "$(cat %q 2>/dev/null)" = "$id" ]; then echo broken >&2; exit 1; fi\nexec %q "$@"\n' \
+printf '#!/bin/sh\nfor last; do :; done\nid=${last#results/}; id=${id%%.json}\necho "$id" >>%q\nif [ "$(cat %q 2>/dev/null)" = "$id" ]; then echo broken >&2; exit 1; fi\nexec %q "$@"\n' \
   "$PWD/ran" "$PWD/fail" "$tool" >path/sdm-lobes
 chmod +x path/sdm-lobes
 PATH=$PWD/path:$PATH
 ran() { sort ran 2>/dev/null | tr '\n' ' '; rm -f ran; }
-all='0000000 0000001 0000002 0000003 0000004 0000005 '
+all='all/two-teeth-hard all/two-teeth-soft one/two-teeth-hard one/two-teeth-soft two/two-teeth-hard two/two-teeth-soft '
 
 # One run, one after another.
 "$scale/prepare" plan one-run "${options[@]}"
 check "poses, and all of them, times tools times materials" test "$(wc -l <one-run/tasks.tsv)" -eq 6
-check "in this order" grep -qx "$(printf '0000005\tall\ttwo-teeth\thard')" one-run/tasks.tsv
+check "in this order" grep -qx "$(printf '6\tall\ttwo-teeth\thard')" one-run/tasks.tsv
 "$scale/run-tasks" one-run <one-run/tasks.tsv
 check "one run" test "$(ran)" = "$all"
 check "is merged" "$scale/merge" one-run
@@ -48,16 +48,16 @@ same() { check "$1: the bytes of one run" cmp -s one-run/charts.tsv "$2/charts.t
 # engine NAME FOLDER COMMAND...: the command with an injected failure, without, and once more.
 engine() {
   local name=$1 folder=$2; shift 2
-  echo 0000003 >fail
+  echo two/two-teeth-hard >fail
   "$@" >.log 2>&1
   check "$name: a failed task is no success" test $? -ne 0
   check "$name: all were tried" test "$(ran)" = "$all"
-  check "$name: one has no result, and there is no merged one" test "$("$scale/todo" "$folder" | cut -f 1)" = 0000003 -a ! -e "$folder/charts.tsv"
-  find "$folder/results" -name '*.json' -printf '%f %i %T@\n' | sort >before
+  check "$name: one has no result, and there is no merged one" test "$("$scale/todo" "$folder" | cut -f 1)" = 4 -a ! -e "$folder/charts.tsv"
+  find "$folder/results" -name '*.json' -printf '%P %i %T@\n' | sort >before
   rm fail
   check "$name: again" "$@" >.log 2>&1
-  check "$name: the failed task alone is run" test "$(ran)" = '0000003 '
-  check "$name: nothing else is touched" test "$(find "$folder/results" -name '*.json' -printf '%f %i %T@\n' | sort | comm -12 - before | wc -l)" -eq 5
+  check "$name: the failed task alone is run" test "$(ran)" = 'two/two-teeth-hard '
+  check "$name: nothing else is touched" test "$(find "$folder/results" -name '*.json' -printf '%P %i %T@\n' | sort | comm -12 - before | wc -l)" -eq 5
   same "$name" "$folder"
   check "$name: with nothing to do" "$@" >.log 2>&1
   check "$name: nothing is run" test -z "$(ran)"
@@ -101,7 +101,15 @@ sed -i '1s/^all/a b/' plan/poses.tsv
 refused 65 '^prepare: .*poses.tsv: expected different names' "$scale/prepare" plan other
 sed -i '1s/^a b/two/' plan/poses.tsv
 refused 65 '^prepare: .*poses.tsv: expected different names' "$scale/prepare" plan other
+# What changes costs what came from it: here pose one is renamed, then a table is another, then a material is added, then an option is another.
+left() { "$scale/prepare" plan one-run "$@" && "$scale/todo" one-run | cut -f 2,3,4 | tr '\t\n' '/ '; }
 sed -i '1s/^two/three/' plan/poses.tsv
-"$scale/prepare" plan one-run "${options[@]}"
-check "another list begins anew" test "$("$scale/todo" one-run | wc -l)" -eq 6
-refused 1 '^merge: 6 tasks without a result: 0000000' "$scale/merge" one-run
+check "a new pose" test "$(left "${options[@]}")" = 'three/two-teeth/soft three/two-teeth/hard all/two-teeth/soft all/two-teeth/hard '
+"$scale/run-tasks" one-run <one-run/tasks.tsv
+cp plan/one.json plan/two.json
+check "another table" test "$(left "${options[@]}")" = 'two/two-teeth/soft two/two-teeth/hard all/two-teeth/soft all/two-teeth/hard '
+"$scale/run-tasks" one-run <one-run/tasks.tsv
+printf 'harder\t{"kt_n_per_mm2": 900, "kr_n_per_mm2": 300}\n' >>plan/materials.tsv
+check "a new material" test "$(left "${options[@]}")" = 'three/two-teeth/harder two/two-teeth/harder all/two-teeth/harder '
+refused 1 '^merge: 3 tasks without a result: 3 6 9' "$scale/merge" one-run
+check "another option" test "$(left --limit-only --speed 9000:12000:5 --depth 0:3:2 | wc -w)" -eq 9
