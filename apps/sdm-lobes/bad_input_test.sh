@@ -103,7 +103,6 @@ refused 65 '^sdm-lobes: points.csv: line 2: "maybe": expected stable or chatter'
 # Usage.
 refused 64 '^sdm-lobes: --teeth: missing: expected --cut' sdm-lobes "$table"
 refused 64 '^sdm-lobes: --kr: missing' sdm-lobes "$table" --teeth 2 --kt 600
-refused 64 '^sdm-lobes: --cut: expected either' sdm-lobes "$table" --cut "$cut" --teeth 2
 refused 64 '^sdm-lobes: -: expected standard input for one input only' sdm-lobes --cut - <"$cut"
 refused 64 '^sdm-lobes: --speed: 5000:20000: expected FROM:TO:COUNT' sdm-lobes "$table" --cut "$cut" --speed 5000:20000
 refused 64 '^sdm-lobes: --depth: -1: expected depths from 0' sdm-lobes "$table" --cut "$cut" --depth -1:2:3

@@ -241,9 +241,10 @@ TEST_CASE("it chatters at the frequency of the limit") {
     const auto limits = crossings_at(structure, cutter, speed, 6e-3, 24);
     if (limits.empty() || limits[0].kind != Instability::kHopf) continue;
     ++hopf;
-    // While it grows, before teeth leave the cut: that shifts the frequency.
+    // While it grows, before teeth leave the cut: that shifts the frequency. A push that is soon above the
+    // other modes' ringing.
     const SimulationResult result =
-        simulate_cut(structure, cutter, kLoad, {speed, 1.01 * limits[0].depth_m, 192, {}, false});
+        simulate_cut(structure, cutter, kLoad, {speed, 1.01 * limits[0].depth_m, 192, {}, false, 0.01});
     REQUIRE(result.chatter_frequency_hz);
     CHECK(std::abs(*result.chatter_frequency_hz / limits[0].chatter_frequency_hz - 1) < 2e-3);
     CHECK(result.without_contact < 0.01);
