@@ -168,7 +168,8 @@ def main():
             os.remove(file)
             return found and f"{title}: {what}: {found}".replace(str(folder) + "/", "")
 
-        every_case = ((title, command_for, damage) for title, whole, command_for in subjects(folder)
+        # Charts of unequal pitches with a helix and process damping take minutes under a sanitizer.
+        every_case = ((title, command_for, damage) for title, whole, command_for in subjects(folder) if not (sanitized and title == "cut")
                       for damage in (mutations.of_table if isinstance(whole, str) else mutations.of_document)(whole))
         chosen = enumerate(itertools.islice(every_case, 0, None, every))
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:

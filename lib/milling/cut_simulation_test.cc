@@ -103,7 +103,7 @@ TEST_CASE("a force that changes the velocity at once does so for the flanks of a
   }
 }
 
-TEST_CASE("the simulated motion settles where the cut is stable, and nowhere else") {
+TEST_CASE("the simulated motion settles where the cut is stable, and nowhere else", "[campaign]") {
   std::mt19937_64 generator(8);
   int far = 0, agree = 0;
   for (int n = 0; n < 120; ++n) {

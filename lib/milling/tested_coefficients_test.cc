@@ -97,7 +97,9 @@ TEST_CASE("the posterior of Kt and Kr is that of a grid over both") {
   CHECK(found.deviations.kt_n_per_m2 < 0.8 * kPrior.kt_n_per_m2);
 }
 
-TEST_CASE("95 % intervals of Kt and Kr after tested cuts hold 93 to 97 % of truths drawn from the prior") {
+TEST_CASE(
+    "95 % intervals of Kt and Kr after tested cuts cover 93 to 97 % of true values drawn from the prior",
+    "[campaign]") {
   std::mt19937_64 generator(5);
   constexpr int kTruths = 2000;
   int kt_held = 0, kr_held = 0, unlikely = 0;
