@@ -5,20 +5,20 @@ table=$data/thesis-table-6-2.json
 jq '.kt_std_n_per_mm2 = 0.15 * .kt_n_per_mm2 | .kr_std_n_per_mm2 = 0.2 * .kr_n_per_mm2 | .kt_kr_correlation = 0.3' \
   "$data/thesis-cut.json" >prior.json
 
-# A material that is harder by a deviation and a half, tried around the prior's limits: what the chart of the truth says.
-jq '.kt_n_per_mm2 *= 1.225 | .kr_n_per_mm2 *= 1.2' prior.json >truth.json
+# A material that is harder by a deviation and a half, tried around the prior's limits: what the chart of the true material says.
+jq '.kt_n_per_mm2 *= 1.225 | .kr_n_per_mm2 *= 1.2' prior.json >true.json
 sdm-lobes "$table" --cut prior.json --speed 6000:16000:6 --depth 0:5:2 --limit-only -o limits.json
 jq -r '"depth_mm,speed_rpm", (.limit[] | select(.depth_mm) | . as $l | (0.75, 0.9, 1.05) | "\(. * $l.depth_mm),\($l.speed_rpm)")' limits.json >cuts.csv
-sdm-lobes "$table" --cut truth.json --points cuts.csv --limit-only -o judged.json
+sdm-lobes "$table" --cut true.json --points cuts.csv --limit-only -o judged.json
 jq -r '"depth_mm,speed_rpm,observed", (.points[] | "\(.depth_mm),\(.speed_rpm),\(if .stable then "stable" else "chatter" end)")' judged.json >tested.csv
 check "there are cuts of both kinds" test "$(grep -c stable tested.csv)" -gt 3 -a "$(grep -c chatter tested.csv)" -gt 3
 
 cut-force prior.json --table "$table" --tested tested.csv --samples 600 --quiet -o learnt.json 2>said
 check "nothing to say" test ! -s said
-check_jq "the interval holds the truth, and is narrower than the prior" learnt.json '.posterior.kt_interval_95_n_per_mm2 as $i
-  | $t[0].kt_n_per_mm2 > $i[0] and $t[0].kt_n_per_mm2 < $i[1] and .kt_std_n_per_mm2 < 0.8 * $t[0].kt_std_n_per_mm2' --slurpfile t truth.json
-check_jq "nearer to the truth" learnt.json '(.kt_n_per_mm2 - $t[0].kt_n_per_mm2 | fabs) < 0.5 * ($t[0].kt_n_per_mm2 - $p[0].kt_n_per_mm2)' \
-  --slurpfile t truth.json --slurpfile p prior.json
+check_jq "the interval covers the true value, and is narrower than the prior" learnt.json '.posterior.kt_interval_95_n_per_mm2 as $i
+  | $t[0].kt_n_per_mm2 > $i[0] and $t[0].kt_n_per_mm2 < $i[1] and .kt_std_n_per_mm2 < 0.8 * $t[0].kt_std_n_per_mm2' --slurpfile t true.json
+check_jq "nearer to the true value" learnt.json '(.kt_n_per_mm2 - $t[0].kt_n_per_mm2 | fabs) < 0.5 * ($t[0].kt_n_per_mm2 - $p[0].kt_n_per_mm2)' \
+  --slurpfile t true.json --slurpfile p prior.json
 check_jq "the prior, the cuts and how sure it is stand beside it" learnt.json '.posterior.prior.kt_n_per_mm2 == $p[0].kt_n_per_mm2
   and (.posterior.cuts | length) == ($j[0].points | length) and .posterior.effective_samples > 100 and .posterior.as_unlikely_share > 0.001
   and all(.posterior.cuts[]; .stable_probability >= 0 and .stable_probability <= 1)' --slurpfile p prior.json --slurpfile j judged.json

@@ -20,6 +20,7 @@ constexpr double revolutions_per_s_from_rpm(double rpm) { return rpm / 60.0; }
 constexpr double rpm_from_revolutions_per_s(double revolutions_per_s) { return revolutions_per_s * 60.0; }
 constexpr double cm3_per_min_from_m3_per_s(double m3_per_s) { return m3_per_s * 60e6; }
 constexpr double n_per_m2_from_n_per_mm2(double n_per_mm2) { return n_per_mm2 * 1e6; }
+constexpr double n_per_mm2_from_n_per_m2(double n_per_m2) { return n_per_m2 * 1e-6; }
 constexpr double n_per_m_from_n_per_mm(double value) { return value * 1e3; }
 
 }  // namespace stablecut

@@ -177,7 +177,7 @@ document::Input Tool::read_input(const std::string& path, InputForm form) {
   if (path == "-") {
     if (standard_input_taken_) throw WrongUsage("-: expected standard input for one input only");
     standard_input_taken_ = true;
-    if (isatty(STDIN_FILENO) == 1) warn("reading standard input, which Ctrl-D ends: no INPUT was given");
+    if (isatty(STDIN_FILENO) == 1) warn("reading standard input from the terminal: Ctrl-D ends it");
   }
   document::Input input{read_source(path), nullptr};
   const bool is_json =

@@ -234,7 +234,7 @@ class Builder {
         const Eigen::RowVectorXd force = rules_[source.rule].force(place_in(source, node.time_s));
         for (Eigen::Index column = source.first_row; column < source.end_row; ++column) {
           const CollocationNode& from = result_.nodes[result_.rows[column].node];
-          const Eigen::VectorXd speed =
+          const Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 3, 1> speed =
               force[point_of(column, source)] * jump * from.drive.col(column - from.first_row);
           for (Eigen::Index row = node.first_row; row < node.end_row(); ++row) {
             if (result_.rows[row].is_velocity)

@@ -18,8 +18,8 @@ constexpr double kStill = 1e-3;        // of the mean deflection: vibration that
 constexpr std::size_t kSamples = 200;  // once per tooth
 constexpr int kMostPeriods = 256;      // of the spectrum
 constexpr int kMostPerPeriod = 1024, kLeastPerPeriod = 64;
-constexpr double kRepeats = 1e-6;  // of the state
-constexpr double kFarthest = 0.1;  // m
+constexpr double kRepeats = 1e-6, kNear = 0.1;  // of the state
+constexpr double kFarthest = 0.1;               // m
 
 // Teeth to follow: a whole number of revolutions.
 int passes_of(const SimulatedGrowth& growth, int teeth, double steps_per_tooth) {
@@ -97,12 +97,17 @@ class Record {
   std::vector<std::optional<double>> farthest_;
 };
 
+// Of the modes' states, as a share of the second's.
+double distance(const SimulatedCut::State& from, const SimulatedCut::State& to) {
+  return (from.modes - to.modes).matrix().norm() / to.modes.matrix().norm();
+}
+
 // Whether a motion that repeats in contact does so when teeth may lose it.
 bool repeats(const SimulatedCut& cut, const SimulatedCut::State& motion) {
   SimulatedCut::State state = motion;
   SimulatedCut::Contact contact;
   for (int period = 0; period < cut.cycle(); ++period) cut.advance(state, contact, [](const auto&) {});
-  return (state.modes - motion.modes).matrix().norm() <= kRepeats * motion.modes.matrix().norm();
+  return distance(state, motion) <= kRepeats;
 }
 
 SimulatedCut::State pushed(SimulatedCut::State state, double by) {
@@ -155,16 +160,8 @@ SimulationResult simulate_cut(const TipStructure& structure, const Cutter& cutte
   const long from = end - static_cast<long>(looked_at) * cut.cycle();
   Record record(cut, load, from, end - teeth / passes_of_period);
   SimulatedCut::Contact contact;
-  double first_step = 0, last_step = 0;  // of the modes from cycle to cycle
-  Eigen::ArrayXcd cycle_before = state.modes;
   while (state.period < end) {
     if (state.period == from) contact = {};
-    if ((state.period - start) % cut.cycle() == 0 && state.period > start) {
-      const double step = (state.modes - cycle_before).matrix().norm();
-      if (state.period - start <= end - from) first_step = std::max(first_step, step);
-      if (state.period > from) last_step = std::max(last_step, step);
-      cycle_before = state.modes;
-    }
     cut.advance(state, contact, [&](const SimulatedNode& node) { record.add(node); });
     if (record.farthest_tip_m < kFarthest) continue;
     result.passes = static_cast<int>(state.period - start) * passes_of_period;
@@ -188,10 +185,10 @@ SimulationResult simulate_cut(const TipStructure& structure, const Cutter& cutte
   const Eigen::Index shifted = motion.cols() - count;
   const double change =
       std::sqrt((motion.rightCols(shifted) - motion.leftCols(shifted)).colwise().squaredNorm().maxCoeff());
-  // A small push that grows is not yet large.
-  const bool grows = last_step > std::max(first_step, kRepeats * state.modes.matrix().norm());
+  // Near a motion from which deviations grow nothing settles: it has not left yet.
+  const bool leaves = result.keeps_contact && !result.stable() && distance(state, repeating) <= kNear;
   result.settled =
-      looked_at > 1 && !grows &&
+      looked_at > 1 && !leaves &&
       change <= kSettled * std::max(result.peak_vibration_m, kStill * result.mean_deflection_m.norm());
   if (!result.settled && looked_at > 1) {
     const SpectralLine line =

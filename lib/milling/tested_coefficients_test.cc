@@ -102,27 +102,27 @@ TEST_CASE(
     "[campaign]") {
   std::mt19937_64 generator(5);
   constexpr int kTruths = 2000;
-  int kt_held = 0, kr_held = 0, unlikely = 0;
+  int kt_covered = 0, kr_covered = 0, unlikely = 0;
   double deviation = 0;
   for (int t = 0; t < kTruths; ++t) {
     const Cutter cutter = fixtures::benchmark_cutter(true, 0.4, 3);
-    const SampledCut truth = sampled_cuts(fixtures::oscillator({"x", "y"}), cutter, kPrior, 1, 100 + t)[0];
-    const Verdicts verdicts = by_formula({truth});
+    const SampledCut true_cut = sampled_cuts(fixtures::oscillator({"x", "y"}), cutter, kPrior, 1, 100 + t)[0];
+    const Verdicts verdicts = by_formula({true_cut});
     std::vector<bool> observed;
     for (Eigen::Index i = 0; i < verdicts.rows(); ++i)
       observed.push_back(verdicts(i, 0) != (numerics::uniform(generator, 0, 1) < kWrong));
     const CoefficientPosterior found = posterior(observed, by_formula, 600);
-    const auto holds = [](const std::array<double, 2>& interval, double value) {
+    const auto covers = [](const std::array<double, 2>& interval, double value) {
       return interval[0] <= value && value <= interval[1];
     };
-    kt_held += holds(found.kt_95_n_per_m2, truth.cutter.kt_n_per_m2);
-    kr_held += holds(found.kr_95_n_per_m2, truth.cutter.kr_n_per_m2);
+    kt_covered += covers(found.kt_95_n_per_m2, true_cut.cutter.kt_n_per_m2);
+    kr_covered += covers(found.kr_95_n_per_m2, true_cut.cutter.kr_n_per_m2);
     unlikely += found.as_unlikely_share < 0.01;
     deviation += found.deviations.kt_n_per_m2 / kPrior.kt_n_per_m2 / kTruths;
   }
-  INFO(kt_held << " " << kr_held << " " << unlikely << " " << deviation);
-  CHECK(std::abs(1.0 * kt_held / kTruths - 0.95) < 0.02);
-  CHECK(std::abs(1.0 * kr_held / kTruths - 0.95) < 0.02);
+  INFO(kt_covered << " " << kr_covered << " " << unlikely << " " << deviation);
+  CHECK(std::abs(1.0 * kt_covered / kTruths - 0.95) < 0.02);
+  CHECK(std::abs(1.0 * kr_covered / kTruths - 0.95) < 0.02);
   // A p value: of one in a hundred, and three deviations of that.
   CHECK(unlikely < 0.01 * kTruths + 3 * std::sqrt(0.01 * kTruths));
   CHECK(deviation < 0.8);

@@ -45,7 +45,7 @@ install(FILES ${PROJECT_BINARY_DIR}/stablecut-config.cmake ${PROJECT_BINARY_DIR}
 list(REVERSE targets)
 list(TRANSFORM targets PREPEND -l OUTPUT_VARIABLE STABLECUT_LIBRARIES)
 list(JOIN STABLECUT_LIBRARIES " " STABLECUT_LIBRARIES)
-file(RELATIVE_PATH STABLECUT_UP /root/${CMAKE_INSTALL_LIBDIR}/pkgconfig /root)
+file(RELATIVE_PATH STABLECUT_UP /any/${CMAKE_INSTALL_LIBDIR}/pkgconfig /any)
 configure_file(${PROJECT_SOURCE_DIR}/scripts/cmake/stablecut.pc.in ${PROJECT_BINARY_DIR}/stablecut.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/stablecut.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 

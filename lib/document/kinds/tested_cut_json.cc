@@ -1,20 +1,20 @@
 #include "document/kinds/tested_cut_json.h"
 
+#include "base/units.h"
+
 namespace stablecut::document {
 namespace {
 
-double n_per_mm2(double n_per_m2) { return n_per_m2 * 1e-6; }
-
 Json interval(const std::array<double, 2>& n_per_m2) {
-  return {n_per_mm2(n_per_m2[0]), n_per_mm2(n_per_m2[1])};
+  return {n_per_mm2_from_n_per_m2(n_per_m2[0]), n_per_mm2_from_n_per_m2(n_per_m2[1])};
 }
 
 // Kt, Kr and what goes with them, as a cut has them.
 Json coefficients(double kt_n_per_m2, double kr_n_per_m2, const milling::CoefficientDeviations& deviations) {
-  return {{"kt_n_per_mm2", n_per_mm2(kt_n_per_m2)},
-          {"kr_n_per_mm2", n_per_mm2(kr_n_per_m2)},
-          {"kt_std_n_per_mm2", n_per_mm2(deviations.kt_n_per_m2)},
-          {"kr_std_n_per_mm2", n_per_mm2(deviations.kr_n_per_m2)},
+  return {{"kt_n_per_mm2", n_per_mm2_from_n_per_m2(kt_n_per_m2)},
+          {"kr_n_per_mm2", n_per_mm2_from_n_per_m2(kr_n_per_m2)},
+          {"kt_std_n_per_mm2", n_per_mm2_from_n_per_m2(deviations.kt_n_per_m2)},
+          {"kr_std_n_per_mm2", n_per_mm2_from_n_per_m2(deviations.kr_n_per_m2)},
           {"kt_kr_correlation", deviations.correlation}};
 }
 
