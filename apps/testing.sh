@@ -55,7 +55,7 @@ same_for_every_tool() {
   check "$tool: bash completes its options" test "$(bash -c '. ./.completion-bash
     COMP_WORDS=('"$tool"' --no-prov) COMP_CWORD=1; _'"${tool//-/_}"'; echo "${COMPREPLY[*]}"')" = --no-provenance
   check "$tool: zsh is told of every option" test "$(grep -oE -- "'\*--[a-z0-9-]+" .completion-zsh | cut -c3- | sort -u)" = \
-    "$("$tool" --help | grep -oE -- "^ +(-., ?)?--[a-z0-9-]+" | grep -oE -- "--[a-z0-9-]+" | sort -u)"
+    "$("$tool" --help | grep -oE -- "^ +-[^ ]+" | grep -oE -- "--[a-z0-9-]+" | sort -u)"
   refused 64 "^$tool: --threads: 0: expected" "$tool" --threads 0
   refused 64 "^$tool: .*expected" "$tool" --threads x
   refused 66 "^$tool: missing.json: cannot be read" "$tool" missing.json "${@:3}"

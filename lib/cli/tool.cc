@@ -20,10 +20,14 @@
 #include "cli/exit_status.h"
 #include "cli/streams.h"
 #include "document/text/data_error.h"
+#include "document/text/flat_table.h"
 #include "document/text/plain_text.h"
 
 namespace stablecut::cli {
 namespace {
+
+// Larger tables are not for the eye: --as-table says how large they are.
+constexpr document::TableSize kMostShown = {100, 24};
 
 // One line, whatever the text was.
 void say(const std::string& name, const std::string& text) {
@@ -187,14 +191,36 @@ document::Input Tool::read_input(const std::string& path, InputForm form) {
   return input;
 }
 
+std::string Tool::table_text(const document::Json& document) const {
+  const std::vector<document::FlatTable> tables = document::flat_tables(document);
+  if (csv_.empty()) return document::aligned_text(tables, kMostShown);
+  std::string names;
+  for (const document::FlatTable& table : tables) {
+    if (table.name == csv_) return document::csv_text(table);
+    names += (names.empty() ? "" : ", ") + table.name;
+  }
+  throw WrongUsage("--csv: " + csv_ + ": expected a table of this document: " + names);
+}
+
 void Tool::write_document(const std::string& path, document::Json document) {
+  if (as_table() && path == output_) {
+    add_output(path, table_text(document));
+    return;
+  }
   if (!without_provenance_) {
     document["provenance"] = provenance(name_, STABLECUT_VERSION, result_arguments(), inputs_);
   }
-  write_text(path, document::json_text(document));
+  add_output(path, document::json_text(document));
 }
 
 void Tool::write_text(const std::string& path, std::string text) {
+  if (as_table() && path == output_)
+    throw WrongUsage(std::string(table_ ? "--as-table" : "--csv") +
+                     ": expected an output that is a document");
+  add_output(path, std::move(text));
+}
+
+void Tool::add_output(const std::string& path, std::string text) {
   const std::string whole = path == "-" ? path : file_of(path);
   if (std::find(output_paths_.begin(), output_paths_.end(), whole) != output_paths_.end()) {
     throw WrongUsage(path + ": expected another output for each document");
@@ -259,6 +285,16 @@ int Tool::parse(int argc, char** argv) {
   not_in_provenance(
       add_integer_option(app_, "--threads", threads, 1, "Threads to work with (default: all cores)"));
   not_in_provenance(app_.add_flag("--no-provenance", without_provenance_, "Leave the provenance out"));
+  // cut-force has a --table of its own.
+  const std::string names = app_.get_option_no_throw("--table") != nullptr ? "" : "--table,";
+  CLI::Option* table = app_.add_flag(names + "--as-table", table_,
+                                     "Write aligned text, to be read, in the place of the document");
+  CLI::Option* csv =
+      app_.add_option("--csv", csv_, "Write one table of the document as CSV in its place, such as limit")
+          ->type_name("TABLE")
+          ->excludes(table);
+  not_in_provenance(table);
+  not_in_provenance(csv);
   schema_option_ =
       app_.add_option("--print-schema", schema_,
                       "Print the JSON Schema of a document kind and exit (default: what the tool writes)")

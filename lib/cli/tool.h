@@ -48,7 +48,8 @@ class Tool {
   /// A part of the tool's own result: not an input of the document.
   document::Input read_part(const std::string& path);
 
-  /// Adds provenance and takes the document as an output; "-" is standard output.
+  /// Adds provenance and takes the document as an output; "-" is standard output. The main output as a table
+  /// where --as-table or --csv asks for it.
   void write_document(const std::string& path, document::Json document);
   /// Takes a text that is no document, without provenance, as an output.
   void write_text(const std::string& path, std::string text);
@@ -70,6 +71,9 @@ class Tool {
   int parse(int argc, char** argv);
   void refuse_unknown() const;
   std::vector<std::string> result_arguments() const;
+  bool as_table() const { return table_ || !csv_.empty(); }
+  std::string table_text(const document::Json& document) const;
+  void add_output(const std::string& path, std::string text);
 
   std::string name_;
   std::string main_kind_;
@@ -79,6 +83,8 @@ class Tool {
   std::string schema_;
   bool quiet_ = false;
   bool without_provenance_ = false;
+  bool table_ = false;
+  std::string csv_;
   int threads_ = 0;
   CLI::Option* schema_option_ = nullptr;
   std::vector<const CLI::Option*> silent_options_;

@@ -91,7 +91,7 @@ def lobes(document):
     note = "Colour: spectral radius of a tooth period; from 1 on the cut chatters. " if grid else ""
     if rows and not grid:
         note = "The chart's speeds or depths are not evenly spaced: its spectral radii are not drawn. "
-    if all(entry["depth_mm"] is None and "not_resolved" not in entry for entry in content["limit"]):
+    if all(entry["depth_mm"] is None and entry.get("not_resolved") is None for entry in content["limit"]):
         note += "Stable over the whole chart."
     found.append(chart("Stability lobes: " + _cut_words(content["cut"]), speed, depth, _lobes_curves(content), grid, note=note or None))
     chattering = [entry for entry in content["limit"] if entry.get("chatter_frequency_hz") is not None]

@@ -18,15 +18,19 @@ const std::map<milling::Instability, const char*> kNames = {{milling::Instabilit
                                                             {milling::Instability::kFlip, "flip"},
                                                             {milling::Instability::kFold, "fold"}};
 
-// How the cut chatters at a crossing.
-void describe(Json& item, const milling::StabilityCrossing& crossing, bool with_table) {
-  item["depth_mm"] = mm_from_metres(crossing.depth_m);
-  item["chatter_frequency_hz"] = crossing.chatter_frequency_hz;
-  item["kind"] = kNames.at(crossing.kind);
-  item["lobe"] = crossing.lobe;
-  item["mode"] = crossing.mode + 1;
-  item["participation"] = crossing.participation;
-  if (with_table) item["table"] = crossing.table + 1;
+// How the cut chatters at a crossing; without one every field is null, so that all rows have the same.
+void describe(Json& item, const milling::StabilityCrossing* crossing, bool with_table) {
+  const auto field = [&](const char* name, const auto& value) {
+    item[name] = crossing != nullptr ? Json(value(*crossing)) : Json(nullptr);
+  };
+  using Crossing = milling::StabilityCrossing;
+  field("depth_mm", [](const Crossing& c) { return mm_from_metres(c.depth_m); });
+  field("chatter_frequency_hz", [](const Crossing& c) { return c.chatter_frequency_hz; });
+  field("kind", [](const Crossing& c) { return kNames.at(c.kind); });
+  field("lobe", [](const Crossing& c) { return c.lobe; });
+  field("mode", [](const Crossing& c) { return c.mode + 1; });
+  field("participation", [](const Crossing& c) { return c.participation; });
+  if (with_table) field("table", [](const Crossing& c) { return c.table + 1; });
 }
 
 // `failure`: why there is nothing to say of a speed; empty where there is, or of no speed.
@@ -35,10 +39,10 @@ Json limit_to_json(const std::vector<double>& speed_rpm,
                    const std::vector<std::string>& failure, bool with_table) {
   Json list = Json::array();
   for (std::size_t s = 0; s < speed_rpm.size(); ++s) {
-    Json item = {{"speed_rpm", speed_rpm[s]}, {"depth_mm", nullptr}};
-    if (s < failure.size() && !failure[s].empty()) item["not_resolved"] = failure[s];
-    if (const milling::StabilityCrossing* limit = milling::limit_of(crossings[s]))
-      describe(item, *limit, with_table);
+    Json item = {{"speed_rpm", speed_rpm[s]}};
+    describe(item, milling::limit_of(crossings[s]), with_table);
+    const bool failed = s < failure.size() && !failure[s].empty();
+    item["not_resolved"] = failed ? Json(failure[s]) : Json(nullptr);
     list.push_back(std::move(item));
   }
   return list;
@@ -51,7 +55,7 @@ Json crossings_to_json(const std::vector<double>& speed_rpm,
   for (std::size_t s = 0; s < speed_rpm.size(); ++s) {
     for (const milling::StabilityCrossing& crossing : crossings[s]) {
       Json item = {{"speed_rpm", speed_rpm[s]}};
-      describe(item, crossing, with_table);
+      describe(item, &crossing, with_table);
       item["above"] = crossing.unstable_above ? "unstable" : "stable";
       list.push_back(std::move(item));
     }
@@ -241,7 +245,8 @@ void take_part(const Node& root, const Shard& shard, bool with_grid, LobesDocume
   for (std::size_t s = 0; s < own.size(); ++s) {
     chart.error[column(s)] = root.at("convergence").number(kNotNegative);
     chart.resolution[column(s)] = static_cast<int>(resolution[s]);
-    if (limits[s].has("not_resolved")) chart.failure[column(s)] = limits[s].at("not_resolved").text();
+    if (const auto reason = limits[s].find("not_resolved"); reason && !reason->is_null())
+      chart.failure[column(s)] = limits[s].at("not_resolved").text();
     if (!whole.sampled) continue;
     const auto interval = limits[s].at("interval_95_mm").items(2);
     for (std::size_t end = 0; end < 2; ++end) {
