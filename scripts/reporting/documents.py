@@ -30,7 +30,8 @@ class Document:
     @property
     def label(self):
         """What the reader knows it by: its own label, or the name of the file."""
-        return self.content.get("label") or pathlib.PurePath(self.name).stem
+        label = self.content.get("label")
+        return label if isinstance(label, str) and label else pathlib.PurePath(self.name).stem
 
 
 def _refuse_constant(text):
@@ -58,6 +59,22 @@ def _unique(pairs):
 
 def _pointer(error):
     return "".join("/" + str(step).replace("~", "~0").replace("/", "~1") for step in error.absolute_path)
+
+
+def _expected(error):
+    """A broken schema in the words of the tools: (where, what was expected)."""
+    at, wanted = _pointer(error), error.validator_value
+    if error.validator == "required":
+        missing = next(name for name in wanted if name not in error.instance)
+        return f"{at}/{missing}", "missing"
+    words = {"type": lambda: " or ".join([wanted] if isinstance(wanted, str) else wanted), "const": lambda: wanted,
+             "enum": lambda: f"one of {', '.join(map(str, wanted))}", "minimum": lambda: f"at least {wanted}",
+             "maximum": lambda: f"at most {wanted}", "exclusiveMinimum": lambda: f"more than {wanted}",
+             "minItems": lambda: f"at least {wanted} items", "maxItems": lambda: f"at most {wanted} items",
+             "pattern": lambda: f"a text like {wanted}", "oneOf": lambda: "another form (see the schema)"}
+    if error.validator in words:
+        return at or "/", f"expected {words[error.validator]()}"
+    return at or "/", " ".join(error.message.split())[-160:]
 
 
 def _lists(kind, content):
@@ -92,12 +109,12 @@ def _lists(kind, content):
         yield "/redundancy_sweep/score", sweep["score"], len(sweep["redundancy_deg"])
 
 
-def read_document(path):
-    """The document in a file, or in standard input for "-". Raises Refused."""
+def read_document(path, kind=None):
+    """The document in a file, or in standard input for "-"; of that kind, where one is given. Raises Refused."""
     shown = "<stdin>" if path == "-" else path
     try:
         raw = sys.stdin.buffer.read() if path == "-" else pathlib.Path(path).read_bytes()
-    except OSError:
+    except (OSError, ValueError):
         raise Refused(f"{shown}: cannot be read", 66) from None
     try:
         content = json.loads(raw.decode(), parse_constant=_refuse_constant, parse_float=_finite, parse_int=_whole,
@@ -106,14 +123,15 @@ def read_document(path):
         raise Refused(f"{shown}: not JSON: {str(error)[:160]}") from None
     found = content.get("format") if isinstance(content, dict) else None
     known = {f"stablecut/{file.name.removesuffix('.schema.json')}/1": file for file in SCHEMAS.glob("*.schema.json")}
-    if not isinstance(found, str) or found not in known:
-        raise Refused(f"{shown}: /format: {str(found)[:80] if found else 'nothing'}: expected stablecut/<kind>/1")
+    wanted = f"stablecut/{kind or '<kind>'}/1"
+    if not isinstance(found, str) or found not in known or (kind and found != wanted):
+        raise Refused(f"{shown}: /format: {str(found)[:80] if found else 'nothing'}: expected {wanted}")
     schema = json.loads(known[found].read_text())
     # The deepest error of the best match says more than "is not valid under any of the given schemas".
     for error in Draft202012Validator(schema).iter_errors(content):
         while error.context:
             error = max(error.context, key=lambda inner: len(inner.absolute_path))
-        raise Refused(f"{shown}: {_pointer(error) or '/'}: {' '.join(error.message.split())[-160:]}")
+        raise Refused(f"{shown}: {': '.join(_expected(error))}")
     for pointer, values, length in _lists(found.split("/")[1], content):
         if len(values) != length:
             raise Refused(f"{shown}: {pointer}: {len(values)} values: expected {length}")
