@@ -158,7 +158,7 @@ class Figure:
             return None
         others = [(how, title) for title, (panel, how) in entries.items() if panel is not self.panels[0]]
         lines = [f"set key at screen 0.5,{6 / self.height:.4f} center bottom vertical maxrows {self.key_rows(entries)} "
-                 "samplen 3 spacing {look.KEY_SPACING[self.form]} Left reverse noenhanced"]
+                 f"samplen 3 spacing {look.KEY_SPACING[self.form]} Left reverse noenhanced"]
         return lines, others
 
     def commands(self):
