@@ -37,7 +37,7 @@ class Panel:
             setattr(self, f"{name}_range", (low, high))
         self.set(f"set {name}range {span(low, high)}")
         if label:
-            self.set(f"set {name}label '{self.figure.said(label)}' noenhanced" + (" offset 0,0.2" if name == "x" else ""))
+            self.set(f"set {name}label '{self.figure.said(label)}' noenhanced" + (f" offset 0,{1 if self.figure.form == 'svg' else 0.3}" if name == "x" else ""))
         if log:
             self.set(f"set logscale {name}")
         if ticks is not None:
@@ -54,7 +54,8 @@ class Panel:
             if letter is None:
                 return
             how = "lines" if letter == "line" else f"points pt '{letter}'"
-        how = re.sub(r"(?<= ps )[0-9.]+", lambda size: f"{float(size[0]) * look.POINT_SCALE[self.figure.form]:g}", how)
+        else:
+            how = look.scaled(how, self.figure.form)
         paint = f" lc {colour if colour == 'palette' else f'rgb {chr(39)}{colour}{chr(39)}'}" if colour else ""
         self.elements.append((f"{data} using {using}{f' axes {axes}' if axes else ''} with {how}{paint}", f"with {how}{paint}", title))
 
@@ -90,7 +91,10 @@ class Panel:
                       f"set bmargin at screen {bottom / height:.4f}; set tmargin at screen {top / height:.4f}"]
         if self.title:
             lines.append(f"set title '{self.figure.said(self.title)}' noenhanced offset 0,-0.3")
-        plots = [f"{drawn} {self.figure.titled(title, key)}" for drawn, _, title in self.elements]
+        said, plots = set(), []
+        for drawn, _, title in self.elements:
+            plots.append(f"{drawn} {self.figure.titled(title if title not in said else None, key)}")
+            said.add(title)
         if key:
             lines += key[0]
             plots += [f"keyentry {how} {self.figure.titled(title, key)}" for how, title in key[1]]
@@ -118,7 +122,7 @@ class Figure:
             self.panels, self.blocks = [], []
             build()
             rows = self.key_rows(title for panel in self.panels for _, _, title in panel.elements)
-            self.foot = rows * look.LINE_PX + 10 if rows else 4
+            self.foot = rows * look.LINE_PX + 24 if rows else 4
             if self.foot == foot:
                 return
 

@@ -1,6 +1,7 @@
 """How all pictures look: colours, fonts, the terminals of gnuplot."""
 
 import math
+import re
 import shutil
 import unicodedata
 
@@ -17,8 +18,9 @@ FONT_PX, SMALL_PX, LINE_PX = 14, 11, 19
 # Widths of DejaVu Sans, of its size: most texts stay below.
 CHARACTER = 0.6
 PX_PER_INCH = 96
-# gnuplot's points and the lines of its key are not of one size in all forms.
-POINT_SCALE = {"svg": 0.55, "png": 1, "pdf": 1, "dumb": 1}
+# gnuplot's points, dashes and lines of the key are not of one size in all forms.
+POINT_SCALE = {"svg": 0.55, "png": 1, "pdf": 1}
+DASH_SCALE = {"svg": 1, "png": 2, "pdf": 2}
 KEY_SPACING = {"svg": 0.9, "png": 1.17, "pdf": 1.17}
 
 # Light where stable, dark where not; dark where soft, light where stiff; from one sign over white to the other; round a circle.
@@ -36,7 +38,7 @@ def series(index):
 
 def clean(text):
     """A text that can stand between quotes in gnuplot's commands: letters and digits of any script, harmless signs."""
-    return "".join(c if unicodedata.category(c)[0] in "LNM" or c in " _.,:/^+*()=%°±-" else "?" for c in text)
+    return "".join(c if unicodedata.category(c)[0] in "LNM" or c in " _.,:/^+*()=%|°±-" else "?" for c in text)
 
 
 def plain(text):
@@ -56,6 +58,11 @@ def decades(low, high):
     return "(" + ", ".join(f"{step}e{power}" for power in range(first, last + 1) for step in steps) + ")"
 
 
+def along(value, low, high, log):
+    """Where a value lies on an axis: 0 at its low end, 1 at its high one."""
+    return math.log(value / low) / math.log(high / low) if log else (value - low) / (high - low)
+
+
 def text_width(text, px=FONT_PX):
     return CHARACTER * px * len(text)
 
@@ -64,6 +71,15 @@ def text_size(columns=None, rows=None):
     """Columns and rows of a picture in text."""
     columns = columns or shutil.get_terminal_size((100, 32)).columns
     return columns, rows or (40 if columns > 120 else 32)
+
+
+def scaled(how, form):
+    """A style of drawing with points and dashes as large as in the other forms."""
+    def times(scale, numbers):
+        return ",".join(f"{float(one) * scale:g}" for one in numbers.split(","))
+
+    how = re.sub(r"(?<= ps )[0-9.]+", lambda found: times(POINT_SCALE[form], found[0]), how)
+    return re.sub(r"(?<= dt \()[0-9.,]+", lambda found: times(DASH_SCALE[form], found[0]), how)
 
 
 def terminal(form, width, height, colours=False):
@@ -76,5 +92,5 @@ def terminal(form, width, height, colours=False):
         return f"set terminal pngcairo size {width},{height} font '{FONT},{points:g}'"
     if form == "pdf":
         return (f"set terminal pdfcairo size {width / PX_PER_INCH:g}in,{height / PX_PER_INCH:g}in font '{FONT},{points:g}' "
-                f"fontscale 0.75 linewidth 1.4 pointscale 0.9 background 'white'")
+                f"fontscale 0.75 linewidth 1.4 pointscale 0.7 background 'white'")
     return f"set terminal dumb {'ansi' if colours else 'mono'} size {width},{height} noenhanced"
