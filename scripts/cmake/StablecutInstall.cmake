@@ -8,8 +8,8 @@ include(CMakePackageConfigHelpers)
 
 set(share ${CMAKE_INSTALL_DATADIR}/stablecut)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scripts/ DESTINATION ${share}/scripts USE_SOURCE_PERMISSIONS
-  FILES_MATCHING PATTERN "plot*" PATTERN "import-urdf" PATTERN "report" PATTERN "schema.jq"
-  REGEX "scripts/(reporting|studies)/" PATTERN "cmake" EXCLUDE PATTERN "derive" EXCLUDE PATTERN "__pycache__" EXCLUDE)
+  FILES_MATCHING PATTERN "plot*" PATTERN "import-urdf" PATTERN "report"
+  REGEX "scripts/(reporting|plotting|studies)/" PATTERN "cmake" EXCLUDE PATTERN "derive" EXCLUDE PATTERN "__pycache__" EXCLUDE)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/schemas DESTINATION ${share} FILES_MATCHING PATTERN "*.schema.json")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/testdata DESTINATION ${share})
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/LICENSE

@@ -37,7 +37,7 @@ class Panel:
             setattr(self, f"{name}_range", (low, high))
         self.set(f"set {name}range {span(low, high)}")
         if label:
-            self.set(f"set {name}label '{self.figure.said(label)}' noenhanced" + (f" offset 0,{1 if self.figure.form == 'svg' else 0.3}" if name == "x" else ""))
+            self.set(f"set {name}label '{self.figure.said(label)}' noenhanced" + (f" offset 0,{0.6 if self.figure.form == 'svg' else 0.3}" if name == "x" else ""))
         if log:
             self.set(f"set logscale {name}")
         if ticks is not None:
@@ -59,11 +59,13 @@ class Panel:
         paint = f" lc {colour if colour == 'palette' else f'rgb {chr(39)}{colour}{chr(39)}'}" if colour else ""
         self.elements.append((f"{data} using {using}{f' axes {axes}' if axes else ''} with {how}{paint}", f"with {how}{paint}", title))
 
+    def explain(self, how, colour, title):
+        """An entry of the key for what is drawn otherwise."""
+        self.elements.append((None, f"with {look.scaled(how, self.figure.form) if not self.figure.text else how} lc rgb '{colour}'", title))
+
     def label(self, text, at, colour=look.INK, align="center", px=look.FONT_PX):
         """A text at a place in gnuplot's words."""
-        points = px if self.figure.form == "svg" else px * 72 / look.PX_PER_INCH
-        font = "" if self.figure.text else f" font '{look.FONT},{points:g}'"
-        self.texts.append(f"set label '{self.figure.said(text)}' at {at} {align} front noenhanced textcolor rgb '{colour}'{font}")
+        self.texts.append(f"set label '{self.figure.said(text)}' at {at} {align} front noenhanced textcolor rgb '{colour}'{self.figure.font(px)}")
 
     def colours(self, palette, label, low=None, high=None, ticks=None):
         """The scale of colours, at the right of the panel."""
@@ -90,10 +92,13 @@ class Panel:
             lines += [f"set lmargin at screen {left / width:.4f}; set rmargin at screen {right / width:.4f}",
                       f"set bmargin at screen {bottom / height:.4f}; set tmargin at screen {top / height:.4f}"]
         if self.title:
-            lines.append(f"set title '{self.figure.said(self.title)}' noenhanced offset 0,-0.3")
+            # Over the panel and half of what lies beside it; smaller where that is not enough.
+            fits = (right - left + 180) / look.text_width(self.title, 1)
+            lines.append(f"set title '{self.figure.said(self.title)}' noenhanced offset 0,-0.3{self.figure.font(max(8, min(look.FONT_PX, fits)))}")
         said, plots = set(), []
-        for drawn, _, title in self.elements:
-            plots.append(f"{drawn} {self.figure.titled(title if title not in said else None, key)}")
+        for drawn, how, title in self.elements:
+            if drawn or key:
+                plots.append(f"{drawn or f'keyentry {how}'} {self.figure.titled(title if title not in said else None, key)}")
             said.add(title)
         if key:
             lines += key[0]
@@ -128,6 +133,10 @@ class Figure:
 
     def said(self, text):
         return clean(look.plain(text) if self.text else text)
+
+    def font(self, px):
+        """The words that set a size of text."""
+        return "" if self.text else f" font '{look.FONT},{px if self.form == 'svg' else px * 72 / look.PX_PER_INCH:.4g}'"
 
     def titled(self, title, key):
         return f"title '{self.said(title)}'" if title and key else "notitle"
@@ -179,7 +188,8 @@ class Figure:
         key = self._key()
         for panel in self.panels:
             if panel is self.panels[0]:
-                panel.texts.append(f"set label '{self.said(self.title)}' at screen 0.5,{1 - 17 / self.height:.4f} center noenhanced")
+                panel.texts.append(f"set label '{self.said(self.title)}' at screen 0.5,{1 - 17 / self.height:.4f} center noenhanced"
+                                   + self.font(max(8, min(look.FONT_PX, (self.width - 20) / look.text_width(self.title or "-", 1)))))
             lines += panel.commands(key if panel is self.panels[0] else None)
         return [*lines, "unset multiplot"]
 

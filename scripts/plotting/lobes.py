@@ -58,16 +58,6 @@ def islands(content):
     return [(entry["speed_rpm"], entry["depth_mm"]) for entry in content.get("crossings", []) if lowest.get(entry["speed_rpm"]) != entry["depth_mm"]]
 
 
-def even(values):
-    """Indices into values that step evenly along them: all of them where they do already."""
-    least, span = min(b - a for a, b in zip(values, values[1:])), values[-1] - values[0]
-    if span <= least * (len(values) - 1) * (1 + 1e-6):
-        return values, list(range(len(values)))
-    count = min(1000, round(span / least) + 1)
-    steps = [values[0] + span * k / (count - 1) for k in range(count)]
-    return steps, [min(range(len(values)), key=lambda i: abs(values[i] - step)) for step in steps]
-
-
 def cut_words(cut):
     arc = (f"{cut['milling']} milling, ae/D {cut['radial_immersion']:g}" if "radial_immersion" in cut
            else f"in cut from {cut['entry_deg']:g} to {cut['exit_deg']:g}°")
