@@ -15,28 +15,61 @@ best-pose --robot "$robot" --path tool-path.json --quiet k2d.json -o path.json
 jq '.feed_per_tooth_mm = 0.1' "$data/thesis-cut.json" >fed.json
 cut-force fed.json --depth 2 --speed 9000 --table "$data/thesis-table-6-2.json" --points "$data/thesis-table-6-3.csv" --passes 200 --quiet -o force.json
 for plot in lobes frf pose-map stabilization path force; do
-  for form in svg png; do
+  for form in svg png pdf; do
     "$scripts/plot-$plot" $plot.json -o $plot.$form 2>.err
     check "plot-$plot to $form" test $? -eq 0 -a -s $plot.$form -a ! -s .err
   done
   check "plot-$plot: SVG" grep -q '</svg>' $plot.svg
   check "plot-$plot: PNG" test "$(head -c 4 $plot.png | tail -c 3)" = PNG
-  if [ $plot != pose-map ] && [ $plot != path ] && [ $plot != force ]; then
-    "$scripts/plot-$plot" --terminal <$plot.json >text
-    check "plot-$plot in a terminal" grep -q 'o\|\.' text
-  fi
+  check "plot-$plot: PDF" test "$(head -c 5 $plot.pdf)" = %PDF-
+  "$scripts/plot-$plot" --terminal --size 70:20 <$plot.json >text 2>.err
+  check "plot-$plot in a terminal, of that size" test "$(wc -l <text)" -ge 20 -a "$(LC_ALL=C.UTF-8 awk 'length > 70' text | wc -l)" -eq 0 -a ! -s .err
+  "$scripts/plot-$plot" --size=900:800 --title "a'b; system \"touch pwned\" \`touch pwned\` Maß" <$plot.json >titled.svg
+  check "plot-$plot: size and title, from standard input" grep -q 'width="900" height="800"' titled.svg
+  check "plot-$plot: the title without harm" grep -q '>a?b? system ?touch pwned? ?touch pwned? Maß<' titled.svg
   refused 64 "^plot-$plot: --nonsense: unknown option" "$scripts/plot-$plot" --nonsense
-  refused 64 "^plot-$plot: x.pdf: expected a name that ends in .svg or .png" "$scripts/plot-$plot" $plot.json -o x.pdf
+  refused 64 "^plot-$plot: --titel: unknown option: expected --title \(see plot-$plot --help\)" "$scripts/plot-$plot" --titel x
+  refused 64 "^plot-$plot: x.jpg: expected a name that ends in .svg, .png or .pdf" "$scripts/plot-$plot" $plot.json -o x.jpg
+  refused 64 "^plot-$plot: --size: 900: expected W:H" "$scripts/plot-$plot" --size 900 $plot.json
+  refused 64 "^plot-$plot: --size: 200:200: expected more" "$scripts/plot-$plot" --size 200:200 $plot.json
   refused 66 "^plot-$plot: missing.json: cannot be read" "$scripts/plot-$plot" missing.json -o x.svg
-  check "plot-$plot --help" "$scripts/plot-$plot" --help >/dev/null
+  "$scripts/plot-$plot" --help >help
+  check "plot-$plot --help: an example first, within 80 columns" test $? -eq 0 -a "$(head -n 1 help)" = Example: -a "$(awk 'length > 80' help | wc -l)" -eq 0
 done
+check "no command runs for a title" test ! -e pwned
+for form in svg png pdf; do
+  "$scripts/plot-lobes" lobes.json -o again.$form
+  check "the same bytes again: $form" cmp -s lobes.$form again.$form
+done
+refused 74 '^plot-lobes: <stdout>: No space left' sh -c '"$1" "$2" >/dev/full' - "$scripts/plot-lobes" lobes.json
+refused 64 '^plot-lobes: --range: 9:3: expected LO:HI' "$scripts/plot-lobes" --range 9:3 lobes.json
+refused 64 '^plot-lobes: --depth: expected a value' "$scripts/plot-lobes" lobes.json --depth
+refused 64 '^plot-lobes: --surface=1: unknown|^plot-lobes: --surface: 1: expected no value' "$scripts/plot-lobes" lobes.json --surface=1
+refused 64 '^plot-lobes: -: expected standard input once' "$scripts/plot-lobes" - - </dev/null
 refused 65 '^plot-lobes: frf.json: /format: stablecut/frf/1: expected stablecut/lobes/1' "$scripts/plot-lobes" frf.json -o x.svg
 "$scripts/plot-frf" frf.json --fitted frf.json --parts complex -o both.svg
 check "measured and fitted, real and imaginary" grep -q 'Im H' both.svg
 rcsa-couple --quiet --identify "$data/carbide-tap.json" "$data/carbide-in-collet.json" --fitted fitted.json --rigid rigid.json -o joint.json
 "$scripts/plot-frf" "$data/carbide-tap.json" --fitted fitted.json --rigid rigid.json -o joint.svg
 check "the joint's effect" grep -q 'rigid joint' joint.svg
-check "the first curve by its name" grep -q '>measured<' joint.svg
+check "a curve that nothing is known of by its file" grep -q '>carbide-tap<' joint.svg
+"$scripts/plot-frf" frf.json -o frf.svg
+check "what was synthesized is not called measured" grep -q '>synthesized<' frf.svg
+fit-modes --convert --quiet "$data/taps/four-signed.uff" | "$scripts/plot-frf" -o converted.svg
+check "what was converted is" grep -q '>measured<' converted.svg
+# Several, by label and file name, in one picture; chosen entries; coherence and noise.
+jq '.label = "Fräser A_2" | (.frequency_hz | length) as $n | .h[0] += {averages: 8, coherence: [range($n) | 1 - . / 1000], variance: [range($n) | 1e-16]}' frf.json >labelled.json
+"$scripts/plot-frf" labelled.json "$data/carbide-tap.json" frf.json --entries xx,xy -o three.svg 2>.err
+check "three responses by their names" test "$(grep -oE '>(Fräser A_2|carbide-tap|frf)<' three.svg | sort -u | wc -l)" -eq 3 -a ! -s .err
+check "the entries that were asked for" test "$(grep -oE '>H [a-z]+<' three.svg | sort | xargs)" = '>H xx< >H xy<'
+check "coherence and noise" test "$(grep -oE '>(coherence|noise, one deviation)<' three.svg | sort -u | wc -l)" -eq 2
+check "and the whole of the wider band" grep -q '>3000<\|>5000<\|>2000<' three.svg
+refused 64 '^plot-frf: --entries: xz: expected one or more of xx, xy, yx, yy' "$scripts/plot-frf" --entries xx,xz frf.json
+refused 64 '^plot-frf: --parts: phase: expected magnitude or complex' "$scripts/plot-frf" --parts phase frf.json
+"$scripts/plot-frf" --linear --range 100: frf.json -o linear.svg
+check "linear axes" test "$(grep -c '>10<' linear.svg)" -eq 0 -a "$(grep -c '>900<\|>800<' linear.svg)" -ge 1
+jq '.h[0].response = "slope_x"' frf.json | "$scripts/plot-frf" --entries slope_xx -o slope.svg
+check "a slope is in radians" grep -q '>|H|, rad/N<' slope.svg
 check "no panel for what does not move" test "$(grep -c 'H x' joint.svg)" -eq 1
 "$scripts/plot-frf" --terminal "$data/carbide-tap.json" --fitted fitted.json --rigid rigid.json >text
 check "all three in a terminal" grep -q 'rigid joint' text
@@ -67,15 +100,39 @@ refused 65 '^plot-lobes: lobes.json: /per_mode: expected a chart' "$scripts/plot
 cp per-mode.json "a'; system \"touch pwned\" #.json"
 "$scripts/plot-lobes" lobes.json per-mode.json "a'; system \"touch pwned\" #.json" -o several.svg
 check "several limits by their names" test "$(grep -oE '>(lobes|per-mode|a\?\? system \?touch pwned\? \?)<' several.svg | sort -u | wc -l)" -eq 3 -a ! -e pwned
-refused 64 '^plot-lobes: expected one input with --surface or --per-mode' "$scripts/plot-lobes" --per-mode lobes.json per-mode.json -o x.svg
+refused 64 '^plot-lobes: --per-mode: expected one input' "$scripts/plot-lobes" --per-mode lobes.json per-mode.json -o x.svg
+
+# The limit's lobes, modes and frequencies; numbers of what to run and of the lowest limit, which may lie between the speeds.
+for words in 'chatter, Hz' 'mode [0-9]*' 'lobe [0-9]*' '[0-9.]* mm at [0-9]* rpm'; do check "lobes: $words" grep -q ">$words<" lobes.svg; done
+"$scripts/plot-lobes" --plain --range 9000:11000 --depth :2 lobes.json -o plain.svg
+check "without frequencies, a part" test "$(grep -c 'chatter, Hz\|>lobe\|>14000<' plain.svg)" -eq 0 -a "$(grep -c '>10000<' plain.svg)" -ge 1
+jq '.label = "Fräser 12 mm"' lobes.json | "$scripts/plot-lobes" | grep -q '>Fräser 12 mm: Stability lobes'
+check "a chart's label" test $? -eq 0
+sdm-lobes "$data/thesis-table-6-2.json" --cut "$data/thesis-cut.json" --speed 9000:12000:6 --depth 0:2:5 --samples 5 --quiet 2>/dev/null | "$scripts/plot-lobes" --probability -o probability.svg
+check "shading by probability, and the interval" test "$(grep -oE '>(probability of stability|95 % interval)<' probability.svg | sort -u | wc -l)" -eq 2
+refused 65 '^plot-lobes: lobes.json: /probability_stable: expected a chart of sdm-lobes --samples' "$scripts/plot-lobes" --probability lobes.json -o x.svg
+# A limit between two speeds that are stable to the top.
+jq 'del(.what_to_run, .points, .crossings) | .limit |= [.[0] | {speed_rpm: 5000, depth_mm: null}, . + {speed_rpm: 10000, depth_mm: 1.5}, {speed_rpm: 20000, depth_mm: null}]' \
+  lobes.json >between.json
+"$scripts/plot-lobes" between.json -o between.svg
+check "it is drawn" test "$(grep -c '>limit<' between.svg)" -eq 1 -a "$(grep -c 'stable over the whole' between.svg)" -eq 0
+# Numbers of modes in a part of the band, and those of the table.
+"$scripts/plot-stabilization" stabilization.json --range 40:80 -o zoom.svg
+check "modes with frequency and damping" grep -qE '>4: 4[34]\.[0-9]* Hz, [0-9.]+ %<' zoom.svg
+jq '.modes |= [.[0] | .out_of_band = true] + .' modes.json >shifted.json
+"$scripts/plot-stabilization" stabilization.json --range 40:80 --modes shifted.json -o zoom.svg
+check "with the numbers of the table" grep -qE '>5: 4[34]\.[0-9]* Hz, [0-9.]+ %<' zoom.svg
 
 "$scripts/plot-pose-map" pose-map.json --pose pose.json -o marked.svg
 check "best pose and unit" grep -q 'best pose' marked.svg
 best-pose --robot "$robot" --height 1600 --x=-2600:2600:14 --y=-2600:2600:14 --redundancy 30:30:1 --map turned.json k2d.json -o pose.json
 "$scripts/plot-pose-map" --directional pose-map.json turned.json -o directional.svg
 check "directional maps name axis and angle" grep -q 'redundancy angle 30 deg' directional.svg
-refused 64 '^plot-pose-map: expected one input, or --directional' "$scripts/plot-pose-map" pose-map.json turned.json -o x.svg
-refused 64 '^plot-pose-map: expected -o with a name' "$scripts/plot-pose-map" --terminal pose-map.json
+"$scripts/plot-pose-map" pose-map.json turned.json --show score,redundancy,branch -o shown.svg
+check "redundancy and branch of two maps, by their names" test "$(grep -oE '>(pose-map|turned): (weakest|redundancy angle|branch), z = 1600 mm[^<]*<' shown.svg | wc -l)" -eq 6
+check "what a branch is" grep -q '>[0-7]: front, elbow [+-], wrist not flipped<' shown.svg
+refused 64 '^plot-pose-map: --show: scroe: expected one or more of score' "$scripts/plot-pose-map" --show scroe pose-map.json
+refused 64 '^plot-pose-map: --directional: expected without --show' "$scripts/plot-pose-map" --show branch --directional pose-map.json
 # Strings of a document never reach gnuplot as commands.
 jq '.index.name = "a\u0027; system \"touch pwned\" #"' pose-map.json >evil.json
 refused 65 '^plot-pose-map: evil.json: /index/name: expected one of' "$scripts/plot-pose-map" evil.json -o x.svg
@@ -85,7 +142,7 @@ jq '.h[0].response = "x\u0027; system \"touch pwned\" #`touch pwned`"' frf.json 
 "$scripts/plot-frf" evil.json -o evil.svg 2>.err || check "a name is drawn or refused" grep -q 'evil.json: /h/0/response' .err
 check "no command runs" test ! -e pwned
 jq '.score = .score[1:]' pose-map.json >short.json
-refused 65 '^plot-pose-map: short.json: /score: expected a row' "$scripts/plot-pose-map" short.json -o x.svg
+refused 65 '^plot-pose-map: short.json: /score: 13 values: expected 14' "$scripts/plot-pose-map" short.json -o x.svg
 refused 73 '^plot-pose-map: none/x.svg: cannot be created' "$scripts/plot-pose-map" pose-map.json -o none/x.svg
 best-pose --robot "$robot" --plane-origin 1800,0,1500 --plane-x 0,1,0 --plane-y 0,0,1 --tool-axis 1,0,0 --x=-900:900:9 --y=-900:900:9 \
   --map wall.json k2d.json -o wall-pose.json
@@ -139,3 +196,6 @@ for field in .depth_mm '.mean_force_n[1]' '.wave.axial_n[3]' '.harmonics[0].forc
   jq "$field = \"system(1)\"" force.json >hostile.json
   refused 65 '^plot-force: hostile.json: .*expected number' "$scripts/plot-force" hostile.json -o x.svg
 done
+
+# What pictures are made of.
+check "parts of pictures" env PYTHONPATH="$scripts" PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 "$SOURCE/apps/pipeline/plotting_test.py"

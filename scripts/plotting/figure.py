@@ -7,7 +7,7 @@ import subprocess
 import sys
 import tempfile
 
-from reporting.command import fail, write_whole
+from reporting.command import fail, misuse, write_whole
 
 from . import look
 from .look import clean, number
@@ -27,6 +27,8 @@ class Panel:
         self.figure, self.box, self.title, self.in_text = figure, box, title, in_text
         self.settings, self.elements, self.texts = [], [], []
         self.x_range = self.y_range = (None, None)
+        # What the axes are; and how far from the axis y, in pixels, since its numbers stand between.
+        self.labels, self.label_gap = {}, 68
 
     def set(self, *lines):
         self.settings += lines
@@ -37,7 +39,7 @@ class Panel:
             setattr(self, f"{name}_range", (low, high))
         self.set(f"set {name}range {span(low, high)}")
         if label:
-            self.set(f"set {name}label '{self.figure.said(label)}' noenhanced" + (f" offset 0,{0.6 if self.figure.form == 'svg' else 0.3}" if name == "x" else ""))
+            self.labels[name] = label
         if log:
             self.set(f"set logscale {name}")
         if ticks is not None:
@@ -83,6 +85,23 @@ class Panel:
                  for ends, size in ((self.x_range, right - left), (self.y_range, top - bottom))]
         return right - left, top - bottom, *scale
 
+    def _axis_labels(self):
+        """At fixed distances: gnuplot's own depend on how wide it takes the numbers to be, which differs between forms."""
+        if self.figure.text:
+            return [f"set {name}label '{self.figure.said(label)}' noenhanced" for name, label in self.labels.items()]
+        left, right, bottom, _ = self.box
+        width, height = self.figure.width, self.figure.height
+        places = {"x": f"graph 0.5, screen {(bottom - 49) / height:.4f} center", "y": f"screen {(left - self.label_gap) / width:.4f}, graph 0.5 center rotate",
+                  "y2": f"screen {(right + 62) / width:.4f}, graph 0.5 center rotate", "cb": f"screen {(right + 92) / width:.4f}, graph 0.5 center rotate"}
+        return [f"set label '{self.figure.said(label)}' at {places[name]} noenhanced{self.figure.font(self._fitting(name, label))}"
+                for name, label in self.labels.items()]
+
+    def _fitting(self, name, label):
+        """The size of text with which a label is no longer than its axis and a little."""
+        left, right, bottom, top = self.box
+        length = (right - left if name == "x" else top - bottom) + 40
+        return max(8, min(look.FONT_PX, length / look.text_width(label, 1)))
+
     def commands(self, key):
         """Its lines of gnuplot; key: the lines that set the key, or nothing, and what stands in it for other panels."""
         left, right, bottom, top = self.box
@@ -103,7 +122,7 @@ class Panel:
         if key:
             lines += key[0]
             plots += [f"keyentry {how} {self.figure.titled(title, key)}" for how, title in key[1]]
-        return [*lines, *self.settings, *self.texts, "plot " + ", ".join(plots or ["NaN notitle"])]
+        return [*lines, *self.settings, *self._axis_labels(), *self.texts, "plot " + ", ".join(plots or ["NaN notitle"])]
 
 
 class Figure:
@@ -194,7 +213,9 @@ class Figure:
         return [*lines, "unset multiplot"]
 
     def draw(self):
-        """Draws it, whole or not at all; the same bytes from the same document."""
+        """Draws it, whole or not at all, the same bytes from the same document. Ends the program where a panel has no room."""
+        if not self.text and any(right - left < 40 or top - bottom < 25 for left, right, bottom, top in (panel.box for panel in self.panels)):
+            misuse(f"--size: {self.width}:{self.height}: expected more, for {len(self.panels)} panel{'s' if len(self.panels) > 1 else ''} and the key")
         with tempfile.TemporaryDirectory() as scratch:
             # -d: without the user's own start-up file.
             run = subprocess.run(["gnuplot", "-d", "-"], input="\n".join([*self.commands(), ""]).encode(), capture_output=True, cwd=scratch,
