@@ -23,7 +23,7 @@ for plot in lobes frf pose-map stabilization path force; do
   check "plot-$plot: PNG" test "$(head -c 4 $plot.png | tail -c 3)" = PNG
   check "plot-$plot: PDF" test "$(head -c 5 $plot.pdf)" = %PDF-
   "$scripts/plot-$plot" --terminal --size 70:20 <$plot.json >text 2>.err
-  check "plot-$plot in a terminal, of that size" test "$(wc -l <text)" -ge 20 -a "$(LC_ALL=C.UTF-8 awk 'length > 70' text | wc -l)" -eq 0 -a ! -s .err
+  check "plot-$plot in a terminal, of that size" test "$(wc -l <text)" -ge 20 -a "$(awk 'length > 70' text | wc -l)" -eq 0 -a ! -s .err
   "$scripts/plot-$plot" --size=900:800 --title "a'b; system \"touch pwned\" \`touch pwned\` Maß" <$plot.json >titled.svg
   check "plot-$plot: size and title, from standard input" grep -q 'width="900" height="800"' titled.svg
   check "plot-$plot: the title without harm" grep -q '>a?b? system ?touch pwned? ?touch pwned? Maß<' titled.svg
@@ -63,11 +63,12 @@ jq '.label = "Fräser A_2" | (.frequency_hz | length) as $n | .h[0] += {averages
 check "three responses by their names" test "$(grep -oE '>(Fräser A_2|carbide-tap|frf)<' three.svg | sort -u | wc -l)" -eq 3 -a ! -s .err
 check "the entries that were asked for" test "$(grep -oE '>H [a-z]+<' three.svg | sort | xargs)" = '>H xx< >H xy<'
 check "coherence and noise" test "$(grep -oE '>(coherence|noise, one deviation)<' three.svg | sort -u | wc -l)" -eq 2
-check "and the whole of the wider band" grep -q '>3000<\|>5000<\|>2000<' three.svg
+"$scripts/plot-frf" frf.json "$data/carbide-tap.json" --linear -o wide.svg
+check "the whole of the wider band" grep -q '> *2000<' wide.svg
 refused 64 '^plot-frf: --entries: xz: expected one or more of xx, xy, yx, yy' "$scripts/plot-frf" --entries xx,xz frf.json
 refused 64 '^plot-frf: --parts: phase: expected magnitude or complex' "$scripts/plot-frf" --parts phase frf.json
 "$scripts/plot-frf" --linear --range 100: frf.json -o linear.svg
-check "linear axes" test "$(grep -c '>10<' linear.svg)" -eq 0 -a "$(grep -c '>900<\|>800<' linear.svg)" -ge 1
+check "linear axes" test "$(grep -c '> *10<' linear.svg)" -eq 0 -a "$(grep -c '> *900<' linear.svg)" -ge 1
 jq '.h[0].response = "slope_x"' frf.json | "$scripts/plot-frf" --entries slope_xx -o slope.svg
 check "a slope is in radians" grep -q '>|H|, rad/N<' slope.svg
 check "no panel for what does not move" test "$(grep -c 'H x' joint.svg)" -eq 1
@@ -105,7 +106,7 @@ refused 64 '^plot-lobes: --per-mode: expected one input' "$scripts/plot-lobes" -
 # The limit's lobes, modes and frequencies; numbers of what to run and of the lowest limit, which may lie between the speeds.
 for words in 'chatter, Hz' 'mode [0-9]*' 'lobe [0-9]*' '[0-9.]* mm at [0-9]* rpm'; do check "lobes: $words" grep -q ">$words<" lobes.svg; done
 "$scripts/plot-lobes" --plain --range 9000:11000 --depth :2 lobes.json -o plain.svg
-check "without frequencies, a part" test "$(grep -c 'chatter, Hz\|>lobe\|>14000<' plain.svg)" -eq 0 -a "$(grep -c '>10000<' plain.svg)" -ge 1
+check "without frequencies, a part" test "$(grep -c 'chatter, Hz\|>lobe\|> *14000<' plain.svg)" -eq 0 -a "$(grep -c '> *10000<' plain.svg)" -ge 1
 jq '.label = "Fräser 12 mm"' lobes.json | "$scripts/plot-lobes" | grep -q '>Fräser 12 mm: Stability lobes'
 check "a chart's label" test $? -eq 0
 sdm-lobes "$data/thesis-table-6-2.json" --cut "$data/thesis-cut.json" --speed 9000:12000:6 --depth 0:2:5 --samples 5 --quiet 2>/dev/null | "$scripts/plot-lobes" --probability -o probability.svg
@@ -115,7 +116,7 @@ refused 65 '^plot-lobes: lobes.json: /probability_stable: expected a chart of sd
 jq 'del(.what_to_run, .points, .crossings) | .limit |= [.[0] | {speed_rpm: 5000, depth_mm: null}, . + {speed_rpm: 10000, depth_mm: 1.5}, {speed_rpm: 20000, depth_mm: null}]' \
   lobes.json >between.json
 "$scripts/plot-lobes" between.json -o between.svg
-check "it is drawn" test "$(grep -c '>limit<' between.svg)" -eq 1 -a "$(grep -c 'stable over the whole' between.svg)" -eq 0
+check "it is drawn" test "$(grep -c '<text>limit<' between.svg)" -eq 1 -a "$(grep -c 'stable over the whole' between.svg)" -eq 0
 # Numbers of modes in a part of the band, and those of the table.
 "$scripts/plot-stabilization" stabilization.json --range 40:80 -o zoom.svg
 check "modes with frequency and damping" grep -qE '>4: 4[34]\.[0-9]* Hz, [0-9.]+ %<' zoom.svg

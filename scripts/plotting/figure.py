@@ -223,8 +223,13 @@ class Figure:
         if run.returncode != 0 or not run.stdout:
             words = [line.strip() for line in run.stderr.decode(errors="replace").splitlines() if line.strip(" ^")]
             fail(f"gnuplot failed: {words[-1] if words else 'no picture'}", 70)
-        # Cairo writes the time into a PDF.
-        write_whole(self.output, re.sub(rb"(?<=/CreationDate \(D:)[0-9]{14}", b"19700101000000", run.stdout) if self.form == "pdf" else run.stdout)
+        picture = run.stdout
+        if self.form == "pdf":
+            # Cairo writes the time into it.
+            picture = re.sub(rb"(?<=/CreationDate \(D:)[0-9]{14}", b"19700101000000", picture)
+        elif self.text:
+            picture = picture.replace(b"\f", b"")
+        write_whole(self.output, picture)
 
 
 def contours(xs, ys, grid, levels):

@@ -42,14 +42,14 @@ def ticks(ends, width):
     span = ends[1] - ends[0]
     if span <= 0:
         return None
-    return next(step * 10.0 ** power for power in range(-9, 12) for step in (1, 2, 5) if span / (step * 10.0 ** power) * 62 <= width)
+    return next(step * 10.0 ** power for power in range(-9, 12) for step in (1, 2, 5) if span / (step * 10.0 ** power) * 62 <= max(width, 62))
 
 
 def fitted(box, x_range, y_range):
     """The largest part of a box whose axes have one scale; the box for a line."""
     left, right, bottom, top = box
     across, up = (ends[1] - ends[0] for ends in (x_range, y_range))
-    if across <= 0 or up <= 0:
+    if across <= 0 or up <= 0 or right - left < 60 or top - bottom < 60:
         return box
     scale = min((right - left) / across, (top - bottom) / up)
     # A strip stays wide enough to be seen; then its axes have two scales.

@@ -67,6 +67,9 @@ def _expected(error):
     if error.validator == "required":
         missing = next(name for name in wanted if name not in error.instance)
         return f"{at}/{missing}", "missing"
+    if error.validator == "dependentRequired":
+        missing = next(name for field, names in wanted.items() if field in error.instance for name in names if name not in error.instance)
+        return f"{at}/{missing}", "missing"
     words = {"type": lambda: " or ".join([wanted] if isinstance(wanted, str) else wanted), "const": lambda: wanted,
              "enum": lambda: f"one of {', '.join(map(str, wanted))}", "minimum": lambda: f"at least {wanted}",
              "maximum": lambda: f"at most {wanted}", "exclusiveMinimum": lambda: f"more than {wanted}",
