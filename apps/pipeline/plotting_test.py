@@ -33,14 +33,20 @@ class Limit(unittest.TestCase):
 
 
 class Grid(unittest.TestCase):
-    def test_even_steps_stay(self):
-        values = [3 + 0.1 * k for k in range(50)]
-        self.assertEqual(grid.even(values), (values, list(range(50))))
+    def test_cells_meet_in_the_middle_and_end_with_the_axis(self):
+        self.assertEqual(grid.edges([0, 1, 2, 6], (None, None)), [(0, 0.5), (0.5, 1.5), (1.5, 4), (4, 6)])
+        self.assertEqual(grid.edges([0, 1, 2, 6], (0.75, 1)), [(None, None), (0.75, 1), (None, None), (None, None)])
 
-    def test_uneven_steps_take_the_nearest(self):
-        steps, indices = grid.even([0, 1, 2, 6])
-        self.assertEqual(steps, [0, 1, 2, 3, 4, 5, 6])
-        self.assertEqual(indices, [0, 1, 2, 2, 2, 3, 3])
+    def test_a_raster_fills_the_axis_with_the_nearest_values(self):
+        for values, ends in (([0, 1, 2, 3], (0, 3)), ([0, 1, 2, 3], (0.4, 2.2)), ([0, 1, 2, 6], (None, None)), (list(range(900)), (-5, 2000))):
+            centres, indices = grid.raster(values, ends)
+            low, high = max(values[0], ends[0] or 0), min(values[-1], ends[1] or values[-1])
+            half = (centres[1] - centres[0]) / 2
+            self.assertAlmostEqual(centres[0] - half, low)
+            self.assertAlmostEqual(centres[-1] + half, high)
+            for centre, index in zip(centres, indices):
+                self.assertAlmostEqual(abs(values[index] - centre), min(abs(value - centre) for value in values))
+        self.assertEqual(grid.raster([0, 1, 2, 3], (0, 3))[1], [0, 1, 1, 2, 2, 3])
 
     def test_ticks_leave_room_for_their_numbers(self):
         for span in (1e-3, 0.7, 12, 5200, 1e6):

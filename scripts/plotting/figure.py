@@ -28,7 +28,7 @@ class Panel:
         self.settings, self.elements, self.texts = [], [], []
         self.x_range = self.y_range = (None, None)
         # What the axes are; and how far from the axis y, in pixels, since its numbers stand between.
-        self.labels, self.label_gap = {}, 68
+        self.labels, self.label_gap = {}, 84
 
     def set(self, *lines):
         self.settings += lines
@@ -48,8 +48,19 @@ class Panel:
             self.set(f"set format {name} '{format}'")
 
     def add(self, rows, how, colour=None, title=None, using="1:2", letter=None, axes=None):
-        """Rows of numbers, an empty one for a gap, drawn "with how"; in a text picture by a letter, "line", or not at all."""
+        """Rows of numbers, an empty one for a gap, drawn "with how"; in a text picture by a letter, "line", or not at all.
+
+        Points outside of the axes are left out, so that the key does not speak of what is not there.
+        """
+        if how.startswith("points"):
+            rows = [row for row in rows if row and self._shown(row)]
+            if not rows:
+                return
         self.draw(self.figure.data(rows), how, colour, title, using, letter, axes)
+
+    def _shown(self, row):
+        return all(value is None or (low is None or low <= value) and (high is None or value <= high)
+                   for value, (low, high) in zip(row, (self.x_range, self.y_range)) if low != high)
 
     def draw(self, data, how, colour=None, title=None, using="1:2", letter=None, axes=None):
         if self.figure.text:
@@ -92,7 +103,7 @@ class Panel:
         left, right, bottom, _ = self.box
         width, height = self.figure.width, self.figure.height
         places = {"x": f"graph 0.5, screen {(bottom - 49) / height:.4f} center", "y": f"screen {(left - self.label_gap) / width:.4f}, graph 0.5 center rotate",
-                  "y2": f"screen {(right + 62) / width:.4f}, graph 0.5 center rotate", "cb": f"screen {(right + 92) / width:.4f}, graph 0.5 center rotate"}
+                  "y2": f"screen {(right + 74) / width:.4f}, graph 0.5 center rotate", "cb": f"screen {(right + 92) / width:.4f}, graph 0.5 center rotate"}
         return [f"set label '{self.figure.said(label)}' at {places[name]} noenhanced{self.figure.font(self._fitting(name, label))}"
                 for name, label in self.labels.items()]
 
@@ -176,7 +187,7 @@ class Figure:
         if not unique:
             return 0
         longest = max(map(len, unique))
-        across = max(1, int((self.width - 10) / (longest + 12) if self.text else (self.width - 40) / (look.text_width("m" * longest) + 76)))
+        across = max(1, int((self.width - 10) / (longest + 12) if self.text else (self.width - 40) / (look.KEY_CHARACTER * longest + 90)))
         return math.ceil(len(unique) / across)
 
     def _key(self):

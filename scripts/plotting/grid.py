@@ -1,14 +1,34 @@
 """Draws a grid of values as coloured cells; in a text picture as digits."""
 
 
-def even(values):
-    """Indices into values that step evenly along them: all of them where they do already."""
-    least, span = min(b - a for a, b in zip(values, values[1:])), values[-1] - values[0]
-    if span <= least * (len(values) - 1) * (1 + 1e-6):
-        return values, list(range(len(values)))
-    count = min(1000, round(span / least) + 1)
-    steps = [values[0] + span * k / (count - 1) for k in range(count)]
-    return steps, [min(range(len(values)), key=lambda i: abs(values[i] - step)) for step in steps]
+def edges(values, ends):
+    """Where the cell of each value begins and ends, cut off at the axis's ends; (None, None) outside of it."""
+    middles = [(before + after) / 2 for before, after in zip(values, values[1:])]
+    found = []
+    for low, high in zip([values[0], *middles], [*middles, values[-1]]):
+        low, high = (low if ends[0] is None else max(low, ends[0])), (high if ends[1] is None else min(high, ends[1]))
+        found.append((low, high) if low < high else (None, None))
+    return found
+
+
+def raster(values, ends, most=400):
+    """Centres of small cells that fill the axis between two ends as far as the values go, and the nearest value's index of each."""
+    found = [edge for edge in edges(values, ends) if edge[0] is not None]
+    if not found:
+        return [], []
+    low, high = found[0][0], found[-1][1]
+    # Half a cell each where that is exact.
+    halves, half = 2 * (len(values) - 1), (values[-1] - values[0]) / (len(values) - 1) / 2
+    exact = halves <= most and (low, high) == (values[0], values[-1]) and all(
+        abs(value - values[0] - 2 * k * half) < 1e-6 * half for k, value in enumerate(values))
+    count = halves if exact else most
+    centres = [low + (high - low) * (k + 0.5) / count for k in range(count)]
+    indices, at = [], 0
+    for centre in centres:
+        while at + 1 < len(values) and abs(values[at + 1] - centre) < abs(values[at] - centre):
+            at += 1
+        indices.append(at)
+    return centres, indices
 
 
 def cells(panel, xs, ys, grid, low, high, words=None):
@@ -19,10 +39,17 @@ def cells(panel, xs, ys, grid, low, high, words=None):
     if len(xs) < 2 or len(ys) < 2:
         panel.add([(x, y, grid[i][j]) for i, y in enumerate(ys) for j, x in enumerate(xs)], "points pt 5 ps 1.4", "palette", using="1:2:3")
         return
-    (across, columns), (up, lines) = even(xs), even(ys)
-    # The cells of an SVG are drawn one by one, since an image would not be clipped; those of a PNG would show seams.
-    panel.add([(x, y, grid[i][j]) for y, i in zip(up, lines) for x, j in zip(across, columns)],
-              "image" if panel.figure.form == "png" else "image pixels", using="1:2:3")
+    if panel.figure.form == "png":
+        # An image whose cells end at the axes: gnuplot does not cut one off right, and single cells would show seams.
+        (across, columns), (up, lines) = raster(xs, panel.x_range), raster(ys, panel.y_range)
+        if across and up:
+            panel.add([(x, y, grid[i][j]) for y, i in zip(up, lines) for x, j in zip(across, columns)], "image", using="1:2:3")
+        return
+    columns, lines = edges(xs, panel.x_range), edges(ys, panel.y_range)
+    rows = [(xs[j], ys[i], left, right, bottom, top, value) for i, (bottom, top) in enumerate(lines) for j, (left, right) in enumerate(columns)
+            if None not in (left, bottom, value := grid[i][j])]
+    if rows:
+        panel.add(rows, "boxxyerror fs solid noborder", "palette", using="1:2:3:4:5:6:7")
 
 
 def _digits(panel, xs, ys, grid, low, high, words):

@@ -17,6 +17,8 @@ FONT = "DejaVu Sans"
 FONT_PX, SMALL_PX, LINE_PX = 14, 11, 19
 # Widths of DejaVu Sans, of its size: most texts stay below.
 CHARACTER = 0.6
+# Pixels that gnuplot reckons for a character of its key.
+KEY_CHARACTER = 9.4
 PX_PER_INCH = 96
 # gnuplot's points, dashes and lines of the key are not of one size in all forms.
 POINT_SCALE = {"svg": 0.55, "png": 1, "pdf": 1}
