@@ -144,6 +144,10 @@ jq '.h[0].response = "x\u0027; system \"touch pwned\" #`touch pwned`"' frf.json 
 check "no command runs" test ! -e pwned
 jq '.score = .score[1:]' pose-map.json >short.json
 refused 65 '^plot-pose-map: short.json: /score: 13 values: expected 14' "$scripts/plot-pose-map" short.json -o x.svg
+jq '.x_mm[3] = .x_mm[2]' pose-map.json >same.json
+refused 65 '^plot-pose-map: same.json: /x_mm/3: .*: expected more than' "$scripts/plot-pose-map" same.json -o x.svg
+jq '.speed_rpm = [] | .spectral_radius |= map([])' lobes.json >none.json
+refused 65 '^plot-lobes: none.json: /speed_rpm: expected at least 1 item' "$scripts/plot-lobes" none.json -o x.svg
 refused 73 '^plot-pose-map: none/x.svg: cannot be created' "$scripts/plot-pose-map" pose-map.json -o none/x.svg
 best-pose --robot "$robot" --plane-origin 1800,0,1500 --plane-x 0,1,0 --plane-y 0,0,1 --tool-axis 1,0,0 --x=-900:900:9 --y=-900:900:9 \
   --map wall.json k2d.json -o wall-pose.json

@@ -94,7 +94,7 @@ class Panel:
         left, right, bottom, top = self.box
         scale = [None if None in ends or ends[0] == ends[1] else size / (ends[1] - ends[0])
                  for ends, size in ((self.x_range, right - left), (self.y_range, top - bottom))]
-        return right - left, top - bottom, *scale
+        return right - left, top - bottom, *(one if one is not None and math.isfinite(one) else None for one in scale)
 
     def _axis_labels(self):
         """At fixed distances: gnuplot's own depend on how wide it takes the numbers to be, which differs between forms."""

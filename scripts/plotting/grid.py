@@ -69,7 +69,7 @@ def ticks(ends, width):
     span = ends[1] - ends[0]
     if span <= 0:
         return None
-    return next(step * 10.0 ** power for power in range(-9, 12) for step in (1, 2, 5) if span / (step * 10.0 ** power) * 62 <= max(width, 62))
+    return next((step * 10.0 ** power for power in range(-9, 12) for step in (1, 2, 5) if span / (step * 10.0 ** power) * 62 <= max(width, 62)), None)
 
 
 def fitted(box, x_range, y_range):

@@ -60,3 +60,13 @@ def read(path, kind):
 def within(given, low, high):
     """A range as given, its open ends the document's."""
     return tuple(end if end is not None else own for end, own in zip(given or (None, None), (low, high)))
+
+
+def run(main):
+    """Runs a script; what nobody thought of ends it with the contract's status."""
+    try:
+        main()
+    except ArithmeticError:
+        fail("the numbers are too large or too small to be drawn", 65)
+    except Exception as error:  # pylint: disable=broad-except
+        fail(f"internal error: {type(error).__name__}: {error}", 70)

@@ -112,6 +112,17 @@ def _lists(kind, content):
         yield "/redundancy_sweep/score", sweep["score"], len(sweep["redundancy_deg"])
 
 
+def _disordered(kind, content):
+    """The first place where an axis does not increase, or has no value: (pointer, what was expected); None where all do."""
+    for name in {"lobes": ("speed_rpm", "depth_mm"), "pose-map": ("x_mm", "y_mm"), "frf": ("frequency_hz",), "stabilization": ("frequency_hz",)}.get(kind, ()):
+        if not content[name]:
+            return f"/{name}", "expected at least 1 item"
+        for i, (before, after) in enumerate(zip(content[name], content[name][1:]), 1):
+            if after <= before:
+                return f"/{name}/{i}", f"{after:g}: expected more than {before:g}, the one before"
+    return None
+
+
 def read_document(path, kind=None):
     """The document in a file, or in standard input for "-"; of that kind, where one is given. Raises Refused."""
     shown = "<stdin>" if path == "-" else path
@@ -138,5 +149,7 @@ def read_document(path, kind=None):
     for pointer, values, length in _lists(found.split("/")[1], content):
         if len(values) != length:
             raise Refused(f"{shown}: {pointer}: {len(values)} values: expected {length}")
+    if disordered := _disordered(found.split("/")[1], content):
+        raise Refused(f"{shown}: {': '.join(disordered)}")
     name = "standard input" if path == "-" else pathlib.PurePath(path).name
     return Document(name, found.split("/")[1], hashlib.sha256(raw).hexdigest(), content)
