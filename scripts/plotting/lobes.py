@@ -10,7 +10,7 @@ def limit(content):
 
 
 def _unknown(entry):
-    return "not_resolved" in entry or "depth_mm" not in entry
+    return entry.get("not_resolved") is not None or "depth_mm" not in entry
 
 
 def curve(entries, top):
