@@ -9,6 +9,13 @@
 
 namespace stablecut {
 
+std::optional<double> parse_decay(std::string_view text) {
+  const bool is_time = text.ends_with('s');
+  const auto number = parse_number(text.substr(0, text.size() - (is_time ? 1 : 0)));
+  if (!number || !(*number > 0) || !std::isfinite(1 / *number)) return std::nullopt;
+  return is_time ? 1 / *number : *number;
+}
+
 void FitChoice::declare(CLI::App& app) {
   app.add_option_function<std::string>(
          "--window-decay", [this](const std::string& text) { take_window_decay(text); },
@@ -25,11 +32,10 @@ void FitChoice::declare(CLI::App& app) {
 }
 
 void FitChoice::take_window_decay(const std::string& text) {
-  const bool is_time = text.ends_with('s');
-  const auto number = parse_number(std::string_view(text).substr(0, text.size() - (is_time ? 1 : 0)));
-  cli::refuse_if(!number || !(*number > 0) || !std::isfinite(1 / *number),
+  const auto decay = parse_decay(text);
+  cli::refuse_if(!decay,
                  "--window-decay: " + text + ": expected a decay in 1/s above 0, or a time constant as 0.2s");
-  window_decay_per_s_ = is_time ? 1 / *number : *number;
+  window_decay_per_s_ = *decay;
 }
 
 void FitChoice::take_modes(const std::string& text) {

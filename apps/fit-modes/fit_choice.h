@@ -3,11 +3,16 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "cli/tool.h"
 #include "modal/fit.h"
 
 namespace stablecut {
+
+/// The decay of an exponential window, 1/s, above 0: as such or as a time constant, 0.2s. Nothing for another
+/// text.
+std::optional<double> parse_decay(std::string_view text);
 
 class FitChoice {
  public:

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "base/error.h"
+#include "cli/exit_status.h"
 #include "cli/progress_bar.h"
 #include "cli/tool.h"
 #include "document/kinds/frf_json.h"
@@ -13,13 +14,16 @@
 #include "document/kinds/stabilization_json.h"
 #include "document/text/data_error.h"
 #include "dynamics/synthesis.h"
+#include "dynamics/window_noise.h"
 #include "fit_choice.h"
 #include "frf_output.h"
 #include "measurement.h"
 #include "modal/fit.h"
 #include "modal/stabilization.h"
 #include "modal/tap_checks.h"
+#include "remedies.h"
 #include "report.h"
+#include "tap_options.h"
 #include "words.h"
 
 namespace stablecut {
@@ -40,6 +44,8 @@ class FitModes : public cli::Tool {
   void setup(CLI::App& app) override {
     cli::begin_group(app, "Measurement");
     measurement_.declare(app);
+    cli::begin_group(app, "Records of hits");
+    taps_.declare(app);
     cli::begin_group(app, "Fit");
     choice_.declare(app);
     add_file_option(app, "--fitted", fitted_path_,
@@ -52,33 +58,18 @@ class FitModes : public cli::Tool {
     frf_output_.declare(app);
   }
 
-  std::string option_for(Remedy remedy) const override {
-    switch (remedy) {
-      case Remedy::kNone:
-        return "";
-      case Remedy::kBand:
-        return "--band";
-      case Remedy::kQuantity:
-        return "--quantity";
-      case Remedy::kUnit:
-        return "--unit";
-      case Remedy::kQuantityOrUnit:
-        return "--quantity or --unit";
-      case Remedy::kFunctions:
-        return "--functions";
-      case Remedy::kNode:
-        return "--node";
-      case Remedy::kModes:
-        return "--modes";
-    }
-    return "";
-  }
+  std::string option_for(Remedy remedy) const override { return option_of(remedy); }
 
   void run() override {
     if (frf_output_.synthesizes()) {
       refuse(measurement_.declared(), "without --synthesize");
+      refuse(taps_.declared(), "without --synthesize");
       refuse(fit_options_, "without --synthesize");
     }
+    if (taps_.given())
+      refuse(measurement_.declared_for_responses(), "without --taps");
+    else
+      refuse(taps_.declared(), "with --taps");
     frf_output_.check();
     if (frf_output_.synthesizes()) {
       synthesize();
@@ -114,11 +105,14 @@ class FitModes : public cli::Tool {
     });
   }
 
-  // Without the damping of an exponential window.
+  // Without the damping of the exponential window that `used` went through.
   void write_table(const modal::ModalFit& fit, const dynamics::FrequencyResponse& used) {
-    const double decay = choice_.window_decay_per_s();
-    const dynamics::ModalModel table =
-        decay > 0 ? named([&] { return dynamics::without_window(fit.model, decay); }) : fit.model;
+    const double decay = used.window_decay_per_s;
+    dynamics::ModalModel table = fit.model;
+    // Where the model is the limit, the correlation length of what is left has widened it already.
+    if (fit.variance_given && !fit.limited_by_model)
+      table = dynamics::with_window_noise(std::move(table), used);
+    if (decay > 0) table = named([&] { return dynamics::without_window(std::move(table), decay); });
     document::Json document = document::modal_table_to_json(table);
     document["fit"].update(fit_report(fit, used));
     if (decay > 0) document["fit"]["window_decay_per_s"] = decay;
@@ -128,6 +122,7 @@ class FitModes : public cli::Tool {
   // The entries and lines that were measured, with the damping of the window.
   void write_fitted(const modal::ModalFit& fit, const dynamics::FrequencyResponse& measured) {
     dynamics::FrequencyResponse frf = dynamics::synthesize(fit.model, measured.frequency_hz);
+    frf.window_decay_per_s = measured.window_decay_per_s;
     std::erase_if(frf.entries, [&](const auto& entry) {
       return measured.find(entry.response, entry.reference) == nullptr;
     });
@@ -159,13 +154,22 @@ class FitModes : public cli::Tool {
         throw document::DataError(input_name_, "", "", "no lines in the band: expected some above 0 Hz");
       warn(input_name_ + ": the line at 0 Hz is left out: it tells nothing of a vibration");
     }
-    return dynamics::to_receptance(std::move(frf), choice_.window_decay_per_s());
+    const double decay = choice_.window_decay_per_s();
+    if (decay > 0 && frf.window_decay_per_s > 0)
+      throw cli::WrongUsage("--window-decay: expected with a measurement that has no window of its own");
+    if (decay > 0) frf.window_decay_per_s = decay;
+    return dynamics::to_receptance(std::move(frf));
   }
 
   dynamics::FrequencyResponse read_measurement() {
-    Measurement measured = measurement_.read(
-        main_input(),
-        [this](const std::string& path, cli::InputForm form) { return read_input(path, form); });
+    const auto reader = [this](const std::string& path, cli::InputForm form) {
+      return read_input(path, form);
+    };
+    if (taps_.given() && main_input() != "-")
+      throw cli::WrongUsage(main_input() + ": expected no other input with --taps");
+    Measurement measured =
+        taps_.given() ? taps_.read(measurement_, reader, [this](const std::string& text) { warn(text); })
+                      : measurement_.read(main_input(), reader);
     for (const document::Remark& remark : measured.remarks)
       warn(document::remark_text(remark) + advice(document::remedy(remark.kind)));
     input_name_ = measured.name;
@@ -195,6 +199,8 @@ class FitModes : public cli::Tool {
 
   void write_frf(const dynamics::FrequencyResponse& frf) {
     if (const auto form = frf_output_.universal_form()) {
+      if (frf.window_decay_per_s > 0)
+        throw cli::WrongUsage("--to: a universal file cannot tell of an exponential window: expected json");
       write_text(main_output(), named([&] { return document::frf_to_universal_file(frf, *form); }));
     } else {
       write_document(main_output(), document::frf_to_json(frf));
@@ -214,6 +220,7 @@ class FitModes : public cli::Tool {
   }
 
   MeasurementOptions measurement_;
+  TapOptions taps_;
   FitChoice choice_;
   FrfOutput frf_output_;
   std::string fitted_path_, stabilization_path_, input_name_;

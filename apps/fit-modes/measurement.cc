@@ -36,6 +36,20 @@ void MeasurementOptions::declare(CLI::App& app) {
   declared_ = {app.get_option("--from"),     app.get_option("--quantity"),  app.get_option("--unit"),
                app.get_option("--entry"),    app.get_option("--functions"), app.get_option("--node"),
                app.get_option("--averages"), app.get_option("--band")};
+  for (const char* name : {"--from", "--entry", "--functions", "--node", "--averages"})
+    for_responses_.push_back(app.get_option(name));
+}
+
+std::optional<dynamics::Quantity> MeasurementOptions::quantity() const {
+  if (quantity_.empty()) return std::nullopt;
+  return document::quantity_from_name(quantity_);
+}
+
+void MeasurementOptions::keep_band(Measurement& measurement) const {
+  if (!band_) return;
+  measurement.frf = dynamics::within_band(measurement.frf, band_->from, band_->to);
+  if (measurement.frf.frequency_hz.size() == 0)
+    throw document::DataError(measurement.name, "", "", "no lines in the band: expected some in --band");
 }
 
 void MeasurementOptions::take_entry(const std::string& text) {
@@ -69,7 +83,7 @@ void MeasurementOptions::check_form(const document::Input& input, const document
 Measurement MeasurementOptions::read(const std::string& main_input, const Reader& read_input) const {
   document::FrfChoice choice = choice_;
   choice.form = document::frf_form_from_name(from_);
-  if (!quantity_.empty()) choice.quantity = document::quantity_from_name(quantity_);
+  choice.quantity = quantity();
   const auto form = from_.empty()     ? cli::InputForm::kByContent
                     : from_ == "json" ? cli::InputForm::kJson
                                       : cli::InputForm::kText;
@@ -89,10 +103,7 @@ Measurement MeasurementOptions::read(const std::string& main_input, const Reader
     for (std::size_t i = 0; i < parts.size(); ++i) parts[i].input = checked(part_paths_[i]);
     result.frf = document::import_frf_parts(parts, choice, result.remarks);
   }
-  if (!band_) return result;
-  result.frf = dynamics::within_band(result.frf, band_->from, band_->to);
-  if (result.frf.frequency_hz.size() == 0)
-    throw document::DataError(result.name, "", "", "no lines in the band: expected some in --band");
+  keep_band(result);
   return result;
 }
 

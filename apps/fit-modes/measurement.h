@@ -25,6 +25,13 @@ class MeasurementOptions {
   /// All of them, to be refused where nothing is read.
   const std::vector<CLI::Option*>& declared() const { return declared_; }
 
+  /// Those that frequency responses need and records of hits do not.
+  std::vector<CLI::Option*> declared_for_responses() const { return for_responses_; }
+  std::optional<dynamics::Quantity> quantity() const;
+  const std::optional<document::FrfUnit>& unit() const { return choice_.unit; }
+  /// Leaves the lines in --band. Throws DataError where there are none.
+  void keep_band(Measurement& measurement) const;
+
   /// Reads `main_input` ("-" by default), or the files of --entry. Throws Failure for options that do not fit
   /// each other or the input, DataError for what the files hold.
   using Reader = std::function<document::Input(const std::string& path, cli::InputForm form)>;
@@ -39,7 +46,7 @@ class MeasurementOptions {
   std::optional<Range> band_;
   std::vector<document::FrfPart> parts_;
   std::vector<std::string> part_paths_;
-  std::vector<CLI::Option*> declared_;
+  std::vector<CLI::Option*> declared_, for_responses_;
 };
 
 }  // namespace stablecut

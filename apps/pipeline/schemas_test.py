@@ -102,6 +102,12 @@ with tempfile.TemporaryDirectory() as folder:
     documents["best model"] = run("fit-modes", "--model", "best", "--stabilization", str(diagram_path), stdin=json.dumps(tap))
     documents["stabilization diagram"] = json.loads(diagram_path.read_text())
 with tempfile.TemporaryDirectory() as folder:
+    subprocess.run([sys.executable, str(source / "apps/fit-modes/simulate_taps.py"), folder], check=True)
+    hits = run("fit-modes", "--taps", f"x={folder}/x.csv", "--tap-window", "5", "--convert")
+    assert hits["covariances"] and hits["window_decay_per_s"] == 5
+    documents["frf of hits"] = hits
+    documents["table of hits"] = run("fit-modes", stdin=json.dumps(hits))
+with tempfile.TemporaryDirectory() as folder:
     list_path, map_path = pathlib.Path(folder) / "poses.json", pathlib.Path(folder) / "map.json"
     list_path.write_text(json.dumps(poses))
     stiffness_path = pathlib.Path(folder) / "stiffness.json"

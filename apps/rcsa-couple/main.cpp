@@ -214,6 +214,7 @@ class RcsaCouple : public cli::Tool {
       throw cli::WrongUsage("--unit: a frf document says its units itself");
     const dynamics::FrequencyResponse tap = document::import_frf(input, choice, remarks);
     warn_of(remarks);
+    document::refuse_window(tap, input.source);
     return tap;
   }
 

@@ -16,7 +16,10 @@ enum class Remedy {
   kQuantityOrUnit,  ///< either of the two
   kFunctions,       ///< take some of the file's functions
   kNode,            ///< take what was measured at one node
-  kModes            ///< take some of the modes
+  kModes,           ///< take some of the modes
+  kTaps,            ///< say that it is a record of a tap
+  kSampleRate,      ///< say how often it was sampled
+  kSensitivity      ///< say how many volts a sensor gives
 };
 
 /// An argument outside what the function can take; the text names quantity, value and what was expected.

@@ -37,7 +37,7 @@ const FrequencyResponseEntry* FrequencyResponse::find(std::string_view response,
   return nullptr;
 }
 
-FrequencyResponse to_receptance(FrequencyResponse frf, double decay_per_s) {
+FrequencyResponse to_receptance(FrequencyResponse frf) {
   const int order = static_cast<int>(frf.quantity);
   if (order == 0) return frf;
   if (frf.frequency_hz.size() > 0 && frf.frequency_hz.minCoeff() <= 0) {
@@ -45,12 +45,13 @@ FrequencyResponse to_receptance(FrequencyResponse frf, double decay_per_s) {
   }
   for (Eigen::Index line = 0; line < frf.frequency_hz.size(); ++line) {
     const double omega = rad_per_s_from_hz(frf.frequency_hz[line]);
-    const std::complex<double> s(decay_per_s, omega);
+    const std::complex<double> s(frf.window_decay_per_s, omega);
     const std::complex<double> divisor = order == 1 ? s : s * s;
     for (auto& entry : frf.entries) {
       entry.h[line] /= divisor;
       if (entry.variance.size() > 0) entry.variance[line] /= std::norm(divisor);
     }
+    for (auto& covariance : frf.covariances) covariance.value[line] /= std::norm(divisor);
   }
   frf.quantity = Quantity::kReceptance;
   return frf;
@@ -66,6 +67,8 @@ FrequencyResponse select(const FrequencyResponse& frf, const std::vector<Eigen::
     if (from.variance.size() > 0) entry.variance = from.variance(lines);
     if (from.coherence.size() > 0) entry.coherence = from.coherence(lines);
   }
+  for (std::size_t c = 0; c < frf.covariances.size(); ++c)
+    part.covariances[c].value = frf.covariances[c].value(lines);
   return part;
 }
 
@@ -95,6 +98,7 @@ FrequencyResponse on_lines(const FrequencyResponse& frf, const Eigen::VectorXd& 
   const Eigen::Index measured = from.size(), lines = frequency_hz.size();
   FrequencyResponse result = frf;
   result.frequency_hz = frequency_hz;
+  result.covariances.clear();
   for (auto& entry : result.entries) {
     entry.h.resize(lines);
     if (entry.variance.size() > 0) entry.variance.resize(lines);

@@ -27,20 +27,29 @@ struct FrequencyResponseEntry {
   bool same_places(const FrequencyResponseEntry& other) const;
 };
 
+/// What the errors of two responses to one force have in common, as where the force's channel has noise.
+struct ColumnCovariance {
+  std::string response, other, reference;  ///< directions
+  Eigen::VectorXcd value;  ///< [lines] E[error of response times the conjugate of that of other]
+};
+
 /// Entries may be missing (unknown); an entry of exact zeros means uncoupled.
 struct FrequencyResponse {
   Quantity quantity = Quantity::kReceptance;
   Eigen::VectorXd frequency_hz;  ///< [lines], increasing
   std::vector<FrequencyResponseEntry> entries;
+  std::vector<ColumnCovariance> covariances;  ///< those that are known, of each pair once
+  /// Decay of the exponential window that the signals went through: h is H(i omega + decay), 0 without one.
+  double window_decay_per_s = 0;
 
   /// The entry of a pair of directions, or null.
   const FrequencyResponseEntry* find(std::string_view response, std::string_view reference) const;
 };
 
 /// The same measurement as displacement over force, H / s^k with k = 0, 1, 2 by quantity. s = i omega +
-/// decay_per_s, where decay_per_s is that of the exponential window exp(-decay_per_s t) that the signals were
-/// measured through [Fladung1997], 0 without one. Throws InvalidArgument for a line at 0 Hz where k > 0.
-FrequencyResponse to_receptance(FrequencyResponse frf, double decay_per_s = 0);
+/// decay, where exp(-decay t) is the window that the signals were measured through [Fladung1997]
+/// (FrequencyResponse::window_decay_per_s). Throws InvalidArgument for a line at 0 Hz where k > 0.
+FrequencyResponse to_receptance(FrequencyResponse frf);
 
 /// The lines with these indices, in this order, of every entry: values, variances and coherences.
 FrequencyResponse select(const FrequencyResponse& frf, const std::vector<Eigen::Index>& lines);

@@ -125,7 +125,8 @@ TEST_CASE("through an exponential window, accelerance is s^2 times receptance at
     entry.h[i] = s * s * std::complex<double>(2, 1);
   }
   frf.entries.push_back(entry);
-  const FrequencyResponse receptance = to_receptance(frf, 4);
+  frf.window_decay_per_s = 4;
+  const FrequencyResponse receptance = to_receptance(frf);
   for (const auto& value : receptance.entries[0].h)
     CHECK(std::abs(value - std::complex<double>(2, 1)) < 1e-14);
 }

@@ -26,7 +26,7 @@ foreach(command ${commands})
 endforeach()
 
 # The library. Its rooms are static, and need the packages that they use.
-set(rooms base numerics dynamics milling modal receptance robot document)
+set(rooms base numerics dynamics milling modal receptance robot taps document)
 list(TRANSFORM rooms PREPEND stablecut_ OUTPUT_VARIABLE targets)
 install(TARGETS ${targets} stablecut_settings EXPORT stablecut-targets
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stablecut)

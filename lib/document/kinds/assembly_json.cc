@@ -134,6 +134,7 @@ dynamics::FrequencyResponse responses_of(const Node& node, const DocumentLoader&
   } else {
     frf = frf_from_json(found.input.document, found.input.source, found.pointer);
   }
+  refuse_window(frf, found.input.source, found.pointer);
   if (!node.has("file")) return frf;
   node.check_names({"file", "quantity", "unit", "response_position_mm", "reference_position_mm"});
   for (auto& entry : frf.entries) {

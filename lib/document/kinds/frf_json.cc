@@ -1,7 +1,10 @@
 #include "document/kinds/frf_json.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "base/number_text.h"
 #include "base/units.h"
 #include "document/text/data_error.h"
 #include "document/text/node.h"
@@ -46,6 +49,42 @@ dynamics::FrequencyResponseEntry entry_from(const Node& node, Eigen::Index lines
   return entry;
 }
 
+dynamics::ColumnCovariance covariance_from(const Node& node, Eigen::Index lines) {
+  node.check_names({"response", "other", "reference", "re", "im"});
+  dynamics::ColumnCovariance covariance;
+  covariance.response = node.at("response").text();
+  covariance.other = node.at("other").text();
+  covariance.reference = node.at("reference").text();
+  // The reference's sign turns both errors.
+  take_sign(covariance.reference);
+  const double sign = take_sign(covariance.response) * take_sign(covariance.other);
+  covariance.value.resize(lines);
+  covariance.value.real() = sign * series(node.at("re"), lines);
+  covariance.value.imag() = sign * series(node.at("im"), lines);
+  return covariance;
+}
+
+// Each pair of entries with one reference, once.
+void read_covariances(const Node& list, dynamics::FrequencyResponse& frf) {
+  for (const Node& item : list.items()) {
+    dynamics::ColumnCovariance covariance = covariance_from(item, frf.frequency_hz.size());
+    for (const auto& [name, direction] :
+         {std::pair("response", &covariance.response), std::pair("other", &covariance.other)}) {
+      if (!frf.find(*direction, covariance.reference))
+        item.at(name).fail("expected the response of an entry with that reference");
+    }
+    const auto same = [&](const dynamics::ColumnCovariance& known) {
+      return known.reference == covariance.reference &&
+             ((known.response == covariance.response && known.other == covariance.other) ||
+              (known.response == covariance.other && known.other == covariance.response));
+    };
+    if (covariance.response == covariance.other) item.fail("expected two responses");
+    if (std::any_of(frf.covariances.begin(), frf.covariances.end(), same))
+      item.fail("expected each pair of responses once");
+    frf.covariances.push_back(std::move(covariance));
+  }
+}
+
 }  // namespace
 
 const char* quantity_name(dynamics::Quantity quantity) {
@@ -84,7 +123,8 @@ Json complex_series(const Eigen::VectorXcd& values) {
 dynamics::FrequencyResponse frf_from_json(const Json& document, const Source& source,
                                           const std::string& pointer) {
   const Node root = document_root(document, source, "frf", pointer);
-  root.check_names({"format", "quantity", "frequency_hz", "h", "holder", "provenance"});
+  root.check_names({"format", "quantity", "frequency_hz", "h", "covariances", "window_decay_per_s", "holder",
+                    "provenance"});
   dynamics::FrequencyResponse frf;
   frf.quantity = quantity_from_name(root.at("quantity").word({"receptance", "mobility", "accelerance"}));
   const Node frequency = root.at("frequency_hz");
@@ -106,7 +146,17 @@ dynamics::FrequencyResponse frf_from_json(const Json& document, const Source& so
     }
     frf.entries.push_back(std::move(entry));
   }
+  if (const auto covariances = root.find("covariances")) read_covariances(*covariances, frf);
+  if (const auto decay = root.find("window_decay_per_s"))
+    frf.window_decay_per_s = decay->number(kNotNegative);
   return frf;
+}
+
+void refuse_window(const dynamics::FrequencyResponse& frf, const Source& source, const std::string& pointer) {
+  if (!(frf.window_decay_per_s > 0)) return;
+  throw DataError(
+      source.name, pointer + "/window_decay_per_s", number_text(frf.window_decay_per_s),
+      "expected responses without an exponential window, or the table that fit-modes makes of them");
 }
 
 Json frf_to_json(const dynamics::FrequencyResponse& frf) {
@@ -122,10 +172,21 @@ Json frf_to_json(const dynamics::FrequencyResponse& frf) {
       item["reference_position_mm"] = mm_from_metres(*entry.reference_position_m);
     h.push_back(std::move(item));
   }
-  return {{"format", "stablecut/frf/1"},
-          {"quantity", quantity_name(frf.quantity)},
-          {"frequency_hz", number_list(frf.frequency_hz)},
-          {"h", std::move(h)}};
+  Json document = {{"format", "stablecut/frf/1"},
+                   {"quantity", quantity_name(frf.quantity)},
+                   {"frequency_hz", number_list(frf.frequency_hz)},
+                   {"h", std::move(h)}};
+  if (frf.window_decay_per_s > 0) document["window_decay_per_s"] = frf.window_decay_per_s;
+  if (frf.covariances.empty()) return document;
+  Json covariances = Json::array();
+  for (const auto& covariance : frf.covariances) {
+    Json item = {
+        {"response", covariance.response}, {"other", covariance.other}, {"reference", covariance.reference}};
+    item.update(complex_series(covariance.value));
+    covariances.push_back(std::move(item));
+  }
+  document["covariances"] = std::move(covariances);
+  return document;
 }
 
 }  // namespace stablecut::document

@@ -14,6 +14,11 @@ dynamics::FrequencyResponse frf_from_json(const Json& document, const Source& so
 /// The document without provenance; variances, coherences and positions are written where they are known.
 Json frf_to_json(const dynamics::FrequencyResponse& frf);
 
+/// Throws DataError for responses through an exponential window, for whoever has no use for H(i omega +
+/// decay).
+void refuse_window(const dynamics::FrequencyResponse& frf, const Source& source,
+                   const std::string& pointer = "");
+
 /// `receptance`, `mobility`, `accelerance`.
 const char* quantity_name(dynamics::Quantity quantity);
 /// Of one of these words.

@@ -8,6 +8,7 @@
 #include "base/range.h"
 #include "base/units.h"
 #include "document/measured/frf_column_plan.h"
+#include "document/measured/tap_column_name.h"
 #include "document/text/data_error.h"
 #include "document/text/plain_text.h"
 #include "document/text/table_text.h"
@@ -16,6 +17,7 @@ namespace stablecut::document {
 namespace {
 
 constexpr double kMostRadians = 1.001 * kPi;  // a phase without a unit is in degrees beyond
+constexpr double kLongestRecord = 1e-3;       // Hz between lines: a record of 1000 s
 constexpr double kMostCoherence = 1 + 1e-6;   // a 1 as programs round it
 
 // The unit at the end of a row: its last field, or the last few together.
@@ -39,14 +41,38 @@ class ColumnReader {
   dynamics::FrequencyResponse read() {
     if (rows_.empty()) throw DataError(source_.name, "", "", "empty input: expected columns of numbers");
     const std::size_t first = first_of_numbers();
+    refuse_named_time(first);
     dynamics::FrequencyResponse frf;
     plan_ = plan_columns(source_, rows_, first, choice_);
     set_quantity(frf);
     take_numbers(frf, first);
+    refuse_times(frf.frequency_hz, first);
     return frf;
   }
 
  private:
+  static constexpr const char* kNoTimes = "a time: expected frequencies, not a record over the time";
+
+  void refuse_named_time(std::size_t first) const {
+    if (first == 0) return;
+    const TableRow& header = rows_[first - 1];
+    if (header.fields.size() < rows_[first].fields.size()) return;
+    const auto name = tap_column_name(header.fields[0]);
+    if (name && name->kind == TapColumnKind::kTime)
+      throw DataError(source_.name, line_place(header.line), '"' + header.fields[0] + '"', kNoTimes,
+                      Remedy::kTaps);
+  }
+
+  // Without a header. No hit rings long enough for lines that near to each other.
+  void refuse_times(const Eigen::VectorXd& frequency_hz, std::size_t first) const {
+    const Eigen::Index last = frequency_hz.size() - 1;
+    if (last < 1 || plan_.header_line > 0) return;
+    const double step = (frequency_hz[last] - frequency_hz[0]) / static_cast<double>(last);
+    if (step > kLongestRecord) return;
+    throw DataError(source_.name, line_place(rows_[first].line),
+                    "a first column in steps of " + number_text(step, 3), kNoTimes, Remedy::kTaps);
+  }
+
   // A row of numbers: the first three fields, and all others up to empty ones at the end. The unit may follow
   // on the very first.
   bool is_numbers(std::size_t index) const {

@@ -77,7 +77,7 @@ TEST_CASE("units and quantities") {
   CHECK(complaint("1 2 3\n", {.form = FrfForm::kCutPro})
             .find("f: line 1: expected a unit at the end of the first line") == 0);
   CHECK(complaint("Hz,Re (V/V),Im (V/V)\n1,1,0\n").find("f: line 1: V/V: expected") == 0);
-  CHECK(complaint("f (s),Re,Im\n1,1,0\n").find("f: line 1: s: expected a frequency") == 0);
+  CHECK(complaint("f (s),Re,Im\n1,1,0\n").find("f: line 1: \"f (s)\": a time: expected frequencies") == 0);
 }
 
 TEST_CASE("magnitude and phase, coherence, several pairs") {
@@ -158,7 +158,7 @@ TEST_CASE("what would be a guess is refused") {
   // Names that tell nothing, also of time records.
   CHECK(complaint("Frecuencia (Hz),Magnitud (m/N),Fase (deg)\n1,2,3\n").find("f: line 1: ") == 0);
   CHECK(complaint("Time (s),Force (N),Acceleration (m/s^2)\n0,2,3\n")
-            .find("f: line 1: Time (s), Force (N), Acceleration (m/s^2): expected names that tell") == 0);
+            .find("f: line 1: \"Time (s)\": a time: expected frequencies") == 0);
   // Three numbers and a text that is no unit.
   CHECK(complaint("5 2 3 furlongs/N\n6 2 3\n") ==
         "f: line 1: furlongs/N: expected a unit behind the numbers, as m/N, or nothing");

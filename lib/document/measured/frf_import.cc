@@ -3,6 +3,7 @@
 #include <array>
 #include <utility>
 
+#include "base/number_text.h"
 #include "document/kinds/frf_json.h"
 #include "document/measured/frf_columns.h"
 #include "document/measured/frf_uff.h"
@@ -97,6 +98,9 @@ dynamics::FrequencyResponse import_frf_parts(const std::vector<FrfPart>& parts, 
     if (!dynamics::same_values(frf.frequency_hz, all.frequency_hz))
       throw DataError(name, "", lines_text(frf.frequency_hz),
                       "expected the lines of the first file, " + lines_text(all.frequency_hz));
+    if (frf.window_decay_per_s != all.window_decay_per_s)
+      throw DataError(name, "/window_decay_per_s", number_text(frf.window_decay_per_s),
+                      "expected " + number_text(all.window_decay_per_s) + ", as in the first file");
     for (const auto& other : all.entries) {
       if (other.same_places(entry))
         throw DataError(name, "", entry.response + entry.reference, "expected each pair of directions once");

@@ -60,9 +60,16 @@ constexpr std::array kSentences = {
     Sentence{RemarkKind::kTwoNodes, "responses at node {1}, forces at node {2}: taken for the same place"},
     Sentence{RemarkKind::kDirectionMissing, "directions 0, which are none: taken as x"},
     Sentence{RemarkKind::kDirectionsOverruled, "says {written}: taken for {entry}"},
+
+    // Records of taps.
+    Sentence{RemarkKind::kMotionTaken, "does not say what the responses are: taken as accelerations in m/s^2",
+             Remedy::kQuantityOrUnit},
+    Sentence{RemarkKind::kForceUnitMissing, "no unit of the force: taken as N", Remedy::kUnit},
+    Sentence{RemarkKind::kResponsesTakenAs, "responses without directions: taken along {written}"},
+    Sentence{RemarkKind::kForceOverruled, "says a force along {written}: taken along {entry}"},
 };
 constexpr RemarkKind kLastLeftOut = RemarkKind::kResponseUnknown;
-constexpr RemarkKind kLast = RemarkKind::kDirectionsOverruled;
+constexpr RemarkKind kLast = RemarkKind::kForceOverruled;
 
 // Every kind has its row, in the order of the kinds.
 constexpr bool in_order() {

@@ -50,7 +50,13 @@ enum class RemarkKind {
   kSeveralNodes,      ///< directions are named with their node [responses' nodes, forces' nodes, first node]
   kTwoNodes,          ///< taken for one place [response's node, force's node]
   kDirectionMissing,  ///< a direction 0 is taken as x
-  kDirectionsOverruled  ///< the file says `written`, and was taken for `entry`
+  kDirectionsOverruled,  ///< the file says `written`, and was taken for `entry`
+
+  // Records of taps.
+  kMotionTaken,       ///< neither unit nor word tell what the responses are: taken as acceleration in m/s^2
+  kForceUnitMissing,  ///< no unit of the force: taken as N
+  kResponsesTakenAs,  ///< responses without directions are taken along `written`
+  kForceOverruled     ///< the file says that the force is along `written`, and was taken along `entry`
 };
 
 struct Remark {
