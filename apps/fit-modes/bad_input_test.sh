@@ -55,6 +55,10 @@ table_with '.fit.covariance.matrix[4][5] = 1' '/fit/covariance/matrix: .*expecte
 table_with 'del(.fit.covariance.matrix)' '/fit/covariance/matrix: missing'
 
 refused 64 '^fit-modes: --band: 5: expected LO:HI' fit-modes --band 5 good.json
+refused 64 '^fit-modes: --delay: late: expected milliseconds' fit-modes --delay late good.json
+refused 64 '^fit-modes: --delay: =1: expected milliseconds' fit-modes --delay =1 good.json
+refused 64 '^fit-modes: --scale: xy=0: expected a factor' fit-modes --scale xy=0 good.json
+refused 64 '^fit-modes: --scale: zz=2: expected an entry of good.json' fit-modes --scale zz=2 good.json
 refused 64 '^fit-modes: --modes: many: expected auto or a number' fit-modes --modes many good.json
 refused 64 '^fit-modes: --modes: 0: expected' fit-modes --modes 0 good.json
 refused 64 '^fit-modes: --seed: expected with --synthesize' fit-modes --seed 3 good.json

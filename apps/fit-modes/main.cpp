@@ -2,6 +2,7 @@
 
 #include <glog/logging.h>
 
+#include <cmath>
 #include <limits>
 #include <type_traits>
 
@@ -30,6 +31,7 @@ namespace stablecut {
 namespace {
 
 constexpr int kHighestOrder = 40;  // of the stabilization diagram, pole pairs
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class FitModes : public cli::Tool {
  public:
@@ -86,10 +88,21 @@ class FitModes : public cli::Tool {
   void fit() {
     const dynamics::FrequencyResponse measured = read_receptance();
     const modal::TapReport tap = modal::check_tap(measured, zeros_are_dead_);
-    for (const modal::TapFinding& finding : tap.findings) warn(input_name_ + ": " + words_of(finding));
-    const dynamics::FrequencyResponse used = dynamics::without_lines(measured, tap.disturbed_lines);
+    const bool band_chosen = measurement_.band_is_chosen();
+    for (const modal::TapFinding& finding : tap.findings)
+      warn(input_name_ + ": " + words_of(finding, band_chosen));
+    dynamics::FrequencyResponse used = dynamics::without_lines(measured, tap.disturbed_lines);
+    if (!band_chosen)
+      used = dynamics::within_band(used, std::nextafter(tap.usable_from_hz, kInfinity), kInfinity);
     const modal::ModalFit result = fitted(used);
-    for (const modal::FitFinding& finding : result.findings) warn(input_name_ + ": " + words_of(finding));
+    for (const modal::FitFinding& finding : result.findings) {
+      const std::string text = input_name_ + ": " + words_of(finding);
+      if (modal::is_no_answer(finding.kind))
+        throw NoAnswer(text, finding.kind == modal::FitFindingKind::kUnexplained && !finding.restricted
+                                 ? Remedy::kBand
+                                 : Remedy::kNone);
+      warn(text);
+    }
     write_table(result, used);
     if (!fitted_path_.empty()) write_fitted(result, measured);
     if (!stabilization_path_.empty()) write_stabilization(result, used);
@@ -100,7 +113,6 @@ class FitModes : public cli::Tool {
       cli::ProgressBar bar("fit-modes", !quiet());
       modal::ModalFit result =
           modal::fit_modes(measured, choice_.options([&](double share) { bar.show(share); }));
-      if (!result.converged) throw NoAnswer("the fit did not converge");
       return result;
     });
   }

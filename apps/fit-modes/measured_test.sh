@@ -32,7 +32,7 @@ for file in point1.frf point1.uff point1-binary.uff; do
   check "$file gives the same modes" cmp modes.json other.json
 done
 fit-modes --modes 2 "$columns" 2>.err >modes.json
-check "the band that integration has ruined is named" grep -q 'below 124 Hz Hxx rises towards 0 Hz' .err
+check "the band that integration has ruined is named" grep -Eq 'below [0-9]+ Hz Hxx rises towards 0 Hz' .err
 
 # Files of other programs: time records are refused, an H1 is read.
 files=$SOURCE/../shared/real/uff

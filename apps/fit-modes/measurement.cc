@@ -32,10 +32,18 @@ void MeasurementOptions::declare(CLI::App& app) {
                           "Only what was measured at this node of a universal file");
   cli::add_number_option(app, "--averages", choice_.averages, "Averages behind the file's coherences",
                          "a number, at least 1", [](double value) { return value >= 1; });
+  for (const std::string option : {"--delay", "--scale"}) {
+    cli::add_repeated_option(app, option, option == "--delay" ? "[XY=]MS" : "[XY=]FACTOR",
+                             option == "--delay"
+                                 ? "The response of the entry (of all) is that late, ms: it is taken off"
+                                 : "Multiply the entry (all) by that",
+                             [this, option](const std::string& text) { take_correction(option, text); });
+  }
   cli::add_band_option(app, "--band", band_, "Use only the lines in this band, Hz");
   declared_ = {app.get_option("--from"),     app.get_option("--quantity"),  app.get_option("--unit"),
                app.get_option("--entry"),    app.get_option("--functions"), app.get_option("--node"),
-               app.get_option("--averages"), app.get_option("--band")};
+               app.get_option("--averages"), app.get_option("--delay"),     app.get_option("--scale"),
+               app.get_option("--band")};
   for (const char* name : {"--from", "--entry", "--functions", "--node", "--averages"})
     for_responses_.push_back(app.get_option(name));
 }
@@ -43,13 +51,6 @@ void MeasurementOptions::declare(CLI::App& app) {
 std::optional<dynamics::Quantity> MeasurementOptions::quantity() const {
   if (quantity_.empty()) return std::nullopt;
   return document::quantity_from_name(quantity_);
-}
-
-void MeasurementOptions::keep_band(Measurement& measurement) const {
-  if (!band_) return;
-  measurement.frf = dynamics::within_band(measurement.frf, band_->from, band_->to);
-  if (measurement.frf.frequency_hz.size() == 0)
-    throw document::DataError(measurement.name, "", "", "no lines in the band: expected some in --band");
 }
 
 void MeasurementOptions::take_entry(const std::string& text) {
@@ -60,6 +61,33 @@ void MeasurementOptions::take_entry(const std::string& text) {
                           ": expected DIRECTIONS=FILE, as xy=tap.csv (response x, force along y)");
   parts_.push_back(*part);
   part_paths_.push_back(text.substr(equals + 1));
+}
+
+void MeasurementOptions::take_correction(const std::string& option, const std::string& text) {
+  const auto equals = text.find('=');
+  Correction correction{option, text, equals == std::string::npos ? "" : text.substr(0, equals)};
+  const auto number = parse_number(equals == std::string::npos ? text : text.substr(equals + 1));
+  const bool is_delay = option == "--delay";
+  if (!number || equals == 0 || (!is_delay && *number == 0)) {
+    throw cli::WrongUsage(option + ": " + text + ": expected " +
+                          (is_delay ? "milliseconds, as 0.25 or xy=0.25" : "a factor, as 9.81 or xy=1.05"));
+  }
+  (is_delay ? correction.delay_ms : correction.factor) = *number;
+  corrections_.push_back(std::move(correction));
+}
+
+void MeasurementOptions::finish(Measurement& measurement) const {
+  for (const Correction& correction : corrections_) {
+    bool any = false;
+    for (dynamics::FrequencyResponseEntry& entry : measurement.frf.entries) {
+      if (!correction.entry.empty() && correction.entry != entry.response + entry.reference) continue;
+      any = true;
+      dynamics::correct(measurement.frf.frequency_hz, 1e-3 * correction.delay_ms, correction.factor, entry);
+    }
+    if (!any)
+      throw cli::WrongUsage(correction.option + ": " + correction.text + ": expected an entry of " +
+                            measurement.name);
+  }
 }
 
 // Options that the input's form has no use for are a mistake.
@@ -103,7 +131,7 @@ Measurement MeasurementOptions::read(const std::string& main_input, const Reader
     for (std::size_t i = 0; i < parts.size(); ++i) parts[i].input = checked(part_paths_[i]);
     result.frf = document::import_frf_parts(parts, choice, result.remarks);
   }
-  keep_band(result);
+  finish(result);
   return result;
 }
 

@@ -18,6 +18,14 @@ struct Measurement {
   std::vector<document::Remark> remarks;  ///< on how the files were read
 };
 
+/// Takes off what is known to be wrong with an entry, or with all of them.
+struct Correction {
+  std::string option, text;  ///< as it was given
+  std::string entry;         ///< response and reference, as xy; empty: all
+  double delay_ms = 0;       ///< by how much the response is late
+  double factor = 1;         ///< that the values are multiplied by
+};
+
 class MeasurementOptions {
  public:
   /// Declares the options; the object must stay where it is until they have been parsed.
@@ -30,7 +38,9 @@ class MeasurementOptions {
   std::optional<dynamics::Quantity> quantity() const;
   const std::optional<document::FrfUnit>& unit() const { return choice_.unit; }
   /// Leaves the lines in --band. Throws DataError where there are none.
-  void keep_band(Measurement& measurement) const;
+  void finish(Measurement& measurement) const;
+  /// Whether --band says which lines count.
+  bool band_is_chosen() const { return band_.has_value(); }
 
   /// Reads `main_input` ("-" by default), or the files of --entry. Throws Failure for options that do not fit
   /// each other or the input, DataError for what the files hold.
@@ -39,6 +49,7 @@ class MeasurementOptions {
 
  private:
   void take_entry(const std::string& text);
+  void take_correction(const std::string& option, const std::string& text);
   void check_form(const document::Input& input, const document::FrfChoice& choice) const;
 
   std::string from_, quantity_;
@@ -47,6 +58,7 @@ class MeasurementOptions {
   std::vector<document::FrfPart> parts_;
   std::vector<std::string> part_paths_;
   std::vector<CLI::Option*> declared_, for_responses_;
+  std::vector<Correction> corrections_;
 };
 
 }  // namespace stablecut

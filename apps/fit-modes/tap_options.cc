@@ -203,7 +203,7 @@ Measurement TapOptions::read(const MeasurementOptions& general, const Measuremen
          number_text(campaign.frf.frequency_hz[campaign.frf.frequency_hz.size() - 1]) +
          " Hz the hits have no force that stands out of its noise: no lines there");
   result.frf = std::move(campaign.frf);
-  general.keep_band(result);
+  general.finish(result);
   return result;
 }
 

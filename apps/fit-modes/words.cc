@@ -46,16 +46,26 @@ std::string disturbed_lines(const modal::TapFinding& finding) {
          list + " Hz), as hum does: left out, since each would be taken for a mode";
 }
 
-std::string list_of(const std::vector<modal::EntryName>& entries) {
+std::string list_of(const std::vector<modal::EntryName>& entries, const std::string& between = ", ") {
   std::string list;
   for (const modal::EntryName& entry : entries)
-    list += (list.empty() ? "" : ", ") + entry.response + entry.reference;
+    list += (list.empty() ? "" : between) + entry.response + entry.reference;
   return list;
+}
+
+std::string unexplained(const modal::FitFinding& finding) {
+  const std::string modes = finding.restricted ? "modes of this model" : "the modes found";
+  const std::string left = finding.missing.empty()
+                               ? "the curves"
+                               : name_of(finding.missing[0]) + " from " + number(finding.lo_hz) + " to " +
+                                     number(finding.hi_hz) + " Hz";
+  return modes + " leave " + percent_text(finding.error) + " of " + left +
+         (finding.restricted ? ": the structure is not like that" : ": is a part of the band unusable?");
 }
 
 }  // namespace
 
-std::string words_of(const modal::TapFinding& finding) {
+std::string words_of(const modal::TapFinding& finding, bool band_chosen) {
   const std::string name = name_of(finding.entry);
   switch (finding.kind) {
     case modal::TapFindingKind::kUnevenLines:
@@ -71,7 +81,9 @@ std::string words_of(const modal::TapFinding& finding) {
     case modal::TapFindingKind::kDrift:
       return "below " + number(finding.hi_hz) + " Hz " + name +
              " rises towards 0 Hz as no structure does (noise, or an imaginary part above 0): integrated "
-             "drift of the sensor; modes found there are not the structure's (--band)";
+             "drift of the sensor; " +
+             (band_chosen ? "modes found there are not the structure's"
+                          : "left out of the fit (--band says otherwise)");
     case modal::TapFindingKind::kNoiseAtHighEnd:
       return "above " + number(finding.lo_hz) + " Hz " + name +
              " is within 10 dB of its noise: these lines add little but computing time (--band)";
@@ -123,6 +135,26 @@ std::string words_of(const modal::FitFinding& finding) {
              ": what they would tell is set by reciprocity, or to zero";
     case modal::FitFindingKind::kTakenAsUncoupled:
       return "missing entries " + list_of(finding.missing) + ": these directions are taken as uncoupled";
+    case modal::FitFindingKind::kDelayed:
+      return "H" + finding.missing[0].response + finding.missing[0].reference + ": its response comes " +
+             number(1e3 * finding.delay_s) +
+             " ms late, so that its modes do not fit those of the others (--delay " +
+             finding.missing[0].response + finding.missing[0].reference + "=" +
+             number_text(1e3 * finding.delay_s, 4) + ")";
+    case modal::FitFindingKind::kAllDelayed:
+      return "the responses come " + number(1e3 * finding.delay_s) +
+             " ms late: no structure has such phases (--delay " + number_text(1e3 * finding.delay_s, 4) + ")";
+    case modal::FitFindingKind::kScaled:
+      return "H" + list_of(finding.missing, " or H") + " is " + number_text(finding.factor, 4) +
+             " times what fits the others: a wrong sensitivity or unit; modes are doubled to make up for it "
+             "(--scale " +
+             list_of({finding.missing[0]}) + "=" + number_text(1 / finding.factor, 4) + ")";
+    case modal::FitFindingKind::kNoMode:
+      return "no mode in the band stands out of the noise";
+    case modal::FitFindingKind::kNotConverged:
+      return "the fit did not converge";
+    case modal::FitFindingKind::kUnexplained:
+      return unexplained(finding);
     case modal::FitFindingKind::kModelError:
       return "the residual is larger than the noise, or not white: " +
              std::string(finding.restricted ? "modes of this model" : "the strongest modes") + " leave " +

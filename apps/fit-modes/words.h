@@ -8,7 +8,8 @@
 
 namespace stablecut {
 
-std::string words_of(const modal::TapFinding& finding);
+/// `band_chosen`: the user says which lines count, so that none are left out at the low end.
+std::string words_of(const modal::TapFinding& finding, bool band_chosen);
 std::string words_of(const modal::FitFinding& finding);
 
 }  // namespace stablecut

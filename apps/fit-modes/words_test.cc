@@ -12,7 +12,9 @@ namespace {
 
 const modal::EntryName kXx{"x", "x"}, kXy{"x", "y"}, kYx{"y", "x"};
 
-void check(const TapFinding& finding, const std::string& text) { CHECK(words_of(finding) == text); }
+void check(const TapFinding& finding, const std::string& text, bool band_chosen = false) {
+  CHECK(words_of(finding, band_chosen) == text);
+}
 void check(const FitFinding& finding, const std::string& text) { CHECK(words_of(finding) == text); }
 
 }  // namespace
@@ -29,7 +31,11 @@ TEST_CASE("what a tap shows about itself, in words") {
         "Hyx: nothing but noise: a dead channel, or uncoupled directions; it tells the fit nothing");
   check({.kind = TapFindingKind::kDrift, .entry = kXx, .hi_hz = 65.4},
         "below 65.4 Hz Hxx rises towards 0 Hz as no structure does (noise, or an imaginary part above 0): "
-        "integrated drift of the sensor; modes found there are not the structure's (--band)");
+        "integrated drift of the sensor; left out of the fit (--band says otherwise)");
+  check({.kind = TapFindingKind::kDrift, .entry = kXx, .hi_hz = 65.4},
+        "below 65.4 Hz Hxx rises towards 0 Hz as no structure does (noise, or an imaginary part above 0): "
+        "integrated drift of the sensor; modes found there are not the structure's",
+        true);
   check({.kind = TapFindingKind::kNoiseAtHighEnd, .entry = kXx, .lo_hz = 810},
         "above 810 Hz Hxx is within 10 dB of its noise: these lines add little but computing time (--band)");
   check({.kind = TapFindingKind::kLikeVelocity, .entry = kXx},
@@ -105,4 +111,16 @@ TEST_CASE("what a fit leaves to be known, in words") {
         "the residual is larger than the noise, or not white: the strongest modes leave 1.7 % of the curves");
   check({.kind = FitFindingKind::kModelError, .error = 0.3, .restricted = true},
         "the residual is larger than the noise, or not white: modes of this model leave 30 % of the curves");
+  check({.kind = FitFindingKind::kDelayed, .missing = {kXy}, .delay_s = 7.1112e-4},
+        "Hxy: its response comes 0.711 ms late, so that its modes do not fit those of the others (--delay "
+        "xy=0.7111)");
+  check({.kind = FitFindingKind::kAllDelayed, .missing = {kXx}, .delay_s = 1.5e-3},
+        "the responses come 1.5 ms late: no structure has such phases (--delay 1.5)");
+  check({.kind = FitFindingKind::kScaled, .missing = {kXx, {"y", "y"}}, .factor = 1.25},
+        "Hxx or Hyy is 1.25 times what fits the others: a wrong sensitivity or unit; modes are doubled to "
+        "make up for it (--scale xx=0.8)");
+  check({.kind = FitFindingKind::kNoMode}, "no mode in the band stands out of the noise");
+  check({.kind = FitFindingKind::kNotConverged}, "the fit did not converge");
+  check({.kind = FitFindingKind::kUnexplained, .missing = {kXy}, .error = 0.7, .lo_hz = 500, .hi_hz = 1000},
+        "the modes found leave 70 % of Hxy from 500 to 1e+03 Hz: is a part of the band unusable?");
 }

@@ -8,6 +8,7 @@
 #include "cli/exit_status.h"
 #include "cli/progress_bar.h"
 #include "cli/tool.h"
+#include "critical_modes.h"
 #include "document/kinds/cut_json.h"
 #include "document/kinds/lobes_json.h"
 #include "document/kinds/modal_table_json.h"
@@ -105,7 +106,8 @@ class SdmLobes : public cli::Tool {
                                      : milling::StabilityMethod::kSpectral,
                     intervals_.value_or(milling::StabilityScheme{}.intervals)};
     lobes.samples = samples_.value_or(0);
-    read_more_tables(table.source.name, structures, lobes);
+    std::vector<dynamics::ModalModel> models = {all_modes};
+    read_more_tables(table.source.name, models, structures, lobes);
     set_axes(lobes);
     read_points(lobes);
     // A part belongs to this table, and to the options that choose from it.
@@ -135,6 +137,7 @@ class SdmLobes : public cli::Tool {
       lobes.what_to_run =
           milling::what_to_run(structures, cutter, written_limits(lobes, axes), request, threads());
     warn_if_not_converged(lobes);
+    for (const std::string& line : doubtful_critical_modes(lobes.chart, models)) warn(line);
     write_document(main_output(), document::lobes_to_json(lobes));
   }
 
@@ -156,14 +159,14 @@ class SdmLobes : public cli::Tool {
                         [this](const auto& text) { warn(text); });
   }
 
-  void read_more_tables(const std::string& first, std::vector<milling::TipStructure>& structures,
-                        document::LobesDocument& lobes) {
+  void read_more_tables(const std::string& first, std::vector<dynamics::ModalModel>& models,
+                        std::vector<milling::TipStructure>& structures, document::LobesDocument& lobes) {
     if (more_tables_.empty()) return;
     lobes.tables = {first};
     for (const std::string& path : more_tables_) {
       const document::Input table = read_input(path, cli::InputForm::kJson);
-      structures.push_back(
-          structure_in(document::modal_table_from_json(table.document, table.source), table.source));
+      models.push_back(document::modal_table_from_json(table.document, table.source));
+      structures.push_back(structure_in(models.back(), table.source));
       lobes.tables.push_back(table.source.name);
     }
   }

@@ -207,3 +207,14 @@ check_jq "one direction is two with the other rigid" x-out.json '[.spectral_radi
 sdm-lobes "$table" --cut "$cut" "${small[@]}" | head -c 100 >/dev/null
 status=("${PIPESTATUS[@]}")
 check "a reader that leaves early ends the tool quietly" test "${status[0]}" -eq 141 -o "${status[0]}" -eq 0
+
+# Critical modes that the measurement hardly knows are named.
+doubt() { # TEXT FILTER: the table changed by a jq filter
+  jq "$2" "$table" >doubtful.json
+  sdm-lobes doubtful.json --cut "$cut" "${small[@]}" --limit-only -o out.json 2>err
+  check "$2: $1, not $(cat err)" grep -Eq "^sdm-lobes: warning: mode [0-9]+ \\([0-9.e+]+ Hz\\) limits the depth down to [0-9.e-]+ mm, but $1" err
+}
+doubt 'lies outside the measured band' '.modes[].out_of_band = true'
+doubt 'has a damping ratio of 1e-06, as no structure has' '.modes[9].damping_ratio = 1e-6'
+sdm-lobes "$table" --cut "$cut" "${small[@]}" --limit-only -o out.json 2>err
+check "nothing is said of the others, not $(cat err)" test ! -s err

@@ -19,6 +19,10 @@ constexpr double kLeastModulus = 1e-300;  // of |h|^2, in a quotient
 
 }  // namespace
 
+bool FrequencyResponseEntry::is_driving_point() const {
+  return response == reference && response_position_m.value_or(0) == reference_position_m.value_or(0);
+}
+
 bool FrequencyResponseEntry::same_places(const FrequencyResponseEntry& other) const {
   return response == other.response && reference == other.reference &&
          response_position_m.value_or(0) == other.response_position_m.value_or(0) &&
@@ -91,6 +95,13 @@ FrequencyResponse without_lines(const FrequencyResponse& frf, const std::vector<
     }
   }
   return select(frf, kept);
+}
+
+void correct(const Eigen::VectorXd& frequency_hz, double delay_s, double factor,
+             FrequencyResponseEntry& entry) {
+  for (Eigen::Index i = 0; i < entry.h.size(); ++i)
+    entry.h[i] *= factor * std::polar(1.0, kTwoPi * frequency_hz[i] * delay_s);
+  entry.variance *= factor * factor;
 }
 
 FrequencyResponse on_lines(const FrequencyResponse& frf, const Eigen::VectorXd& frequency_hz) {

@@ -23,6 +23,8 @@ struct FrequencyResponseEntry {
   std::optional<double> response_position_m;   ///< distance from the tip
   std::optional<double> reference_position_m;  ///< distance from the tip
 
+  /// Response and force are at one place in one direction.
+  bool is_driving_point() const;
   /// The same directions at the same places; without a position it is the tip.
   bool same_places(const FrequencyResponseEntry& other) const;
 };
@@ -59,6 +61,11 @@ FrequencyResponse within_band(const FrequencyResponse& frf, double lo_hz, double
 
 /// All lines except those with these (increasing) indices.
 FrequencyResponse without_lines(const FrequencyResponse& frf, const std::vector<Eigen::Index>& lines);
+
+/// Takes a delay of the response (s) off an entry on these lines, h exp(i omega delay_s), and multiplies it
+/// by the factor, the variance by its square.
+void correct(const Eigen::VectorXd& frequency_hz, double delay_s, double factor,
+             FrequencyResponseEntry& entry);
 
 /// The same on other lines (Hz, increasing). A line that was measured keeps its values; between lines h
 /// follows the cubic through the four nearest ones, and the variance a straight line. Coherences are left

@@ -12,6 +12,7 @@ namespace {
 constexpr Eigen::Index kHalfWindow = 24;  // lines on either side of a window's middle line
 constexpr Eigen::Index kWindowStep = 8;   // lines that share a window's median
 constexpr Eigen::Index kLeastNoiseLines = 6;
+constexpr double kPooledFreedom = 30;  // independent values behind a variance that becomes a weight
 // The squared modulus of a complex Gaussian is exponentially distributed: its median is log 2 times its mean
 // [Hampel1974].
 const double kMedianOfExponential = std::log(2.0);
@@ -96,9 +97,31 @@ Eigen::VectorXd likeliest_sum(const Eigen::VectorXd& square, const Eigen::Vector
   return best;
 }
 
-// Mean over a window around each line, which stays inside the curve.
-Eigen::VectorXd running_mean(const Eigen::VectorXd& square) {
-  const Eigen::Index half = std::min(kHalfWindow, (square.size() - 1) / 2);
+// The variances [lines x shapes] of the shape that is likeliest on the whole; where it `may_change`, in
+// windows those of another one that is clearly likelier there. `likely` [squares x shapes]: log-likelihood of
+// each square.
+Eigen::VectorXd likeliest_shape(const Eigen::MatrixXd& variance, const Eigen::MatrixXd& likely,
+                                bool may_change) {
+  const Eigen::Index lines = variance.rows(), count = likely.rows();
+  Eigen::Index best = 0;
+  likely.colwise().sum().maxCoeff(&best);
+  Eigen::VectorXd result = variance.col(best);
+  const Eigen::Index half = std::min(kHalfWindow, (count - 1) / 2);
+  for (Eigen::Index first = 0; may_change && first < lines; first += kWindowStep) {
+    const Eigen::Index centre = std::clamp<Eigen::Index>(first - 2 + kWindowStep / 2, half, count - 1 - half);
+    const Eigen::RowVectorXd here = likely.middleRows(centre - half, 2 * half + 1).colwise().sum();
+    Eigen::Index local = 0;
+    // [Schwarz1978]: another shape is a parameter more.
+    if (here.maxCoeff(&local) < here[best] + std::log(static_cast<double>(lines)) / 2) continue;
+    const Eigen::Index block = std::min(kWindowStep, lines - first);
+    result.segment(first, block) = variance.col(local).segment(first, block);
+  }
+  return result;
+}
+
+// Mean over `reach` lines on either side of each line, of a window that stays inside the curve.
+Eigen::VectorXd running_mean(const Eigen::VectorXd& square, Eigen::Index reach) {
+  const Eigen::Index half = std::min(reach, (square.size() - 1) / 2);
   Eigen::VectorXd mean(square.size());
   for (Eigen::Index i = 0; i < square.size(); ++i) {
     const Eigen::Index first = std::clamp<Eigen::Index>(i - half, 0, square.size() - 1 - 2 * half);
@@ -114,7 +137,7 @@ NoiseShapes floor_shapes(const Eigen::VectorXd& omega) {
 }
 
 Eigen::VectorXd estimated_variance(const Eigen::VectorXd& lines, const Eigen::VectorXcd& values,
-                                   const Eigen::VectorXd& size, const NoiseShapes& floors) {
+                                   const Eigen::VectorXd& size, const NoiseShapes& floors, bool may_change) {
   if (values.size() < kLeastNoiseLines) return Eigen::VectorXd::Zero(values.size());
   const Eigen::Index count = values.size() - 4;
   const Eigen::Array<double, Eigen::Dynamic, 5> weights = fourth_differences(lines);
@@ -123,28 +146,27 @@ Eigen::VectorXd estimated_variance(const Eigen::VectorXd& lines, const Eigen::Ve
   for (Eigen::Index a = 0; a < 5; ++a)
     difference += weights.col(a).cast<std::complex<double>>() * values.segment(a, count).array();
   const Eigen::VectorXd square = difference.abs2();
-  Eigen::VectorXd best;
-  double most = 0;
-  const auto try_shape = [&](const Eigen::VectorXd& shape) {
-    const Eigen::VectorXd v = shape.cwiseAbs2().array().max(kLeastVariance);
+  NoiseShapes shapes = floors;
+  shapes.push_back(size);
+  Eigen::MatrixXd variance(values.size(), shapes.size()), likely(count, shapes.size());
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    const Eigen::Index at = k;
+    const Eigen::VectorXd v = shapes[k].cwiseAbs2().array().max(kLeastVariance);
     Eigen::VectorXd expected = Eigen::VectorXd::Zero(count);
     for (Eigen::Index a = 0; a < 5; ++a) expected.array() += shares.col(a) * v.segment(a, count).array();
     const Eigen::VectorXd level = windowed_mean(square.cwiseQuotient(expected));
-    const double likely = log_likelihood(square, level.segment(2, count).cwiseProduct(expected));
-    if (best.size() > 0 && !(likely > most)) return;
-    most = likely;
-    best = level.cwiseProduct(v);
-  };
-  for (const Eigen::VectorXd& floor : floors) try_shape(floor);
-  try_shape(size);
-  return best;
+    const Eigen::ArrayXd here = (level.segment(2, count).array() * expected.array()).max(kLeastVariance);
+    likely.col(at) = -(here.log() + square.array() / here);
+    variance.col(at) = level.cwiseProduct(v);
+  }
+  return likeliest_shape(variance, likely, may_change);
 }
 
 ResidualNoise residual_noise(const Eigen::VectorXcd& residual, const Eigen::VectorXd& size,
                              const NoiseShapes& floors) {
   const Eigen::VectorXd square = residual.cwiseAbs2();
   ResidualNoise noise;
-  noise.local = running_mean(square);
+  noise.local = running_mean(square, kHalfWindow);
   for (const Eigen::VectorXd& floor : floors) {
     const Eigen::VectorXd smooth = likeliest_sum(square, floor.cwiseAbs2(), size.cwiseAbs2());
     if (noise.smooth.size() == 0 || log_likelihood(square, smooth) > log_likelihood(square, noise.smooth))
@@ -156,6 +178,16 @@ ResidualNoise residual_noise(const Eigen::VectorXcd& residual, const Eigen::Vect
   noise.is_local = log_likelihood(square, noise.local) - log_likelihood(square, noise.smooth) >
                    windows * std::log(lines) / 2;
   return noise;
+}
+
+Eigen::VectorXd pooled_variance(const Eigen::VectorXd& estimates, double freedom, const Eigen::VectorXd& size,
+                                const NoiseShapes& floors) {
+  const auto reach = static_cast<Eigen::Index>(std::ceil((kPooledFreedom / freedom - 1) / 2));
+  if (reach <= 0) return estimates;
+  const Eigen::VectorXd smooth =
+      residual_noise(estimates.cwiseSqrt().cast<std::complex<double>>(), size, floors)
+          .smooth.cwiseMax(kLeastVariance);
+  return smooth.cwiseProduct(running_mean(estimates.cwiseQuotient(smooth), reach));
 }
 
 double correlation_length(const Eigen::VectorXcd& residual) {

@@ -17,10 +17,12 @@ NoiseShapes floor_shapes(const Eigen::VectorXd& omega);
 /// Estimated variance E|error|^2 of the complex values on each line [lines], in the values' unit squared,
 /// from fourth differences of the curve [Gasser1986], which a cubic does not reach. `lines` says where the
 /// values stand (increasing, any unit, any spacing); `size` [lines] is the modulus of the signal, to which
-/// noise may be proportional; `floors` are the other shapes that are tried. Zero for a curve without noise,
+/// noise may be proportional; `floors` are the other shapes that are tried. The likeliest shape holds for all
+/// lines, or, where it `may_change`, until another one is clearly likelier. Zero for a curve without noise,
 /// and for fewer than six lines.
 Eigen::VectorXd estimated_variance(const Eigen::VectorXd& lines, const Eigen::VectorXcd& values,
-                                   const Eigen::VectorXd& size, const NoiseShapes& floors);
+                                   const Eigen::VectorXd& size, const NoiseShapes& floors,
+                                   bool may_change = false);
 
 /// Two estimates of the variance on each line of a residual that is white noise.
 struct ResidualNoise {
@@ -31,6 +33,13 @@ struct ResidualNoise {
 /// `residual`, `size` and each of `floors` [lines], as for estimated_variance.
 ResidualNoise residual_noise(const Eigen::VectorXcd& residual, const Eigen::VectorXd& size,
                              const NoiseShapes& floors);
+
+/// A variance on each line [lines] from estimates that each rest on `freedom` independent complex values, as
+/// one from a coherence of freedom + 1 averages does: where these are few, each line is pooled with its
+/// neighbours, as multiples of the likeliest smooth shape. The inverse of a single estimate would be far too
+/// large a weight on average. `size` and each of `floors` [lines], as for estimated_variance.
+Eigen::VectorXd pooled_variance(const Eigen::VectorXd& estimates, double freedom, const Eigen::VectorXd& size,
+                                const NoiseShapes& floors);
 
 /// Correlation length of a residual in lines [Bayley1946]: how many neighbouring values tell as much as one
 /// independent value. 1 for white noise and for a residual of zeros, more for a misfit that is smooth over

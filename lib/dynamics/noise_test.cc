@@ -154,3 +154,16 @@ TEST_CASE("a floor of the acceleration, or of the velocity, is recognised in the
     CHECK((found.smooth.array() / truth.array()).maxCoeff() < 1.25);
   }
 }
+
+TEST_CASE("estimates from few averages are pooled") {
+  // From two averages: one degree of freedom, an exponential distribution, whose inverse has no mean.
+  const Eigen::Index lines = 3000;
+  const Eigen::VectorXd estimates = white(lines, 1).cwiseAbs2();
+  const Eigen::VectorXd pooled =
+      pooled_variance(estimates, 1, Eigen::VectorXd::Ones(lines), floors_of(lines));
+  // Over 31 lines: the inverse is 31 / 30 on average, and scatters by 18 % a window.
+  CHECK(pooled.cwiseInverse().mean() == Approx(31.0 / 30).epsilon(0.05));
+  CHECK((pooled.array() / pooled.mean() - 1).square().mean() == Approx(1.0 / 31).epsilon(0.4));
+  // Many averages stand for themselves.
+  CHECK(pooled_variance(estimates, 40, Eigen::VectorXd::Ones(lines), floors_of(lines)) == estimates);
+}

@@ -7,7 +7,10 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "base/units.h"
+#include "dynamics/noise.h"
+#include "modal/explained.h"
 #include "modal/fitted_table.h"
+#include "modal/mismatch_proof.h"
 #include "modal/mode_search.h"
 #include "modal/table_assembly.h"
 
@@ -78,8 +81,14 @@ std::vector<std::string> group_directions(const dynamics::FrequencyResponse& mea
 CurveVariances known_variances(const dynamics::FrequencyResponse& measured, const DirectionGroup& group) {
   CurveVariances result;
   for (const std::size_t e : group.entries) {
-    result.push_back(dynamics::known_variance(measured.entries[e]));
-    if (result.back().size() == 0) return {};
+    const auto& entry = measured.entries[e];
+    Eigen::VectorXd variance = dynamics::known_variance(entry);
+    if (variance.size() == 0) return {};
+    if (entry.variance.size() == 0) {
+      variance = dynamics::pooled_variance(variance, std::max(*entry.averages - 1, 1.0), entry.h.cwiseAbs(),
+                                           dynamics::floor_shapes(measured.frequency_hz));
+    }
+    result.push_back(std::move(variance));
   }
   return result;
 }
@@ -203,16 +212,59 @@ std::vector<EntryName> missing_entries(const dynamics::FrequencyResponse& measur
   return missing;
 }
 
-// Where the model is the limit: no answer when it explains next to nothing, else a finding.
-void judge_model_error(const FitOptions& options, ModalFit& fit) {
-  const bool restricted = fit.mode_model != ModeModel::kNonsymmetric;
-  if (!options.modes && fit.relative_error > kNoFit) {
-    const std::string left = percent_text(fit.relative_error) + " of the curves";
-    if (restricted) throw NoAnswer("modes of this model leave " + left + ": the structure is not like that");
-    throw NoAnswer("the modes found leave " + left + ": is a part of the band unusable?", Remedy::kBand);
+// Entries that come late, or whose scale is off.
+void judge_entries(const dynamics::FrequencyResponse& measured, const std::vector<Group>& groups,
+                   const std::vector<GroupFit>& fits, ModalFit& fit) {
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const FitData& data = fits[g].data;
+    const auto name = [&](std::size_t c) {
+      return EntryName{groups[g].directions[data.curves[c].response],
+                       groups[g].directions[data.curves[c].reference]};
+    };
+    std::vector<bool> driving;
+    for (std::size_t c = 0; c < data.curves.size(); ++c) {
+      const auto* entry = measured.find(name(c).response, name(c).reference);
+      driving.push_back(entry->is_driving_point());
+    }
+    for (const EntryMismatch& mismatch :
+         proved_mismatches(fits[g], groups[g].variance, driving, {groups[g].wanted_modes, {}})) {
+      FitFinding finding{.kind = mismatch.all           ? FitFindingKind::kAllDelayed
+                                 : mismatch.factor != 1 ? FitFindingKind::kScaled
+                                                        : FitFindingKind::kDelayed,
+                         .missing = {name(mismatch.curve)},
+                         .delay_s = mismatch.delay_s,
+                         .factor = mismatch.factor};
+      if (mismatch.other) finding.missing.push_back(name(*mismatch.other));
+      fit.findings.push_back(std::move(finding));
+    }
   }
-  fit.findings.push_back(
-      {.kind = FitFindingKind::kModelError, .error = fit.relative_error, .restricted = restricted});
+}
+
+// Where modes explain too little of a curve or a band, whatever limits the fit, or there is none in the band.
+void judge_explained(const std::vector<Group>& groups, const std::vector<GroupFit>& fits,
+                     const FitOptions& options, ModalFit& fit) {
+  const bool restricted = fit.mode_model != ModeModel::kNonsymmetric;
+  if (std::all_of(fit.model.modes.begin(), fit.model.modes.end(),
+                  [](const dynamics::Mode& mode) { return mode.out_of_band; }))
+    fit.findings.push_back({.kind = FitFindingKind::kNoMode});
+  if (options.modes) return;
+  if (fit.limited_by_model && fit.relative_error > kNoFit) {
+    fit.findings.push_back(
+        {.kind = FitFindingKind::kUnexplained, .error = fit.relative_error, .restricted = restricted});
+    return;
+  }
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const auto worst = most_unexplained(fits[g].data, fits[g].modes(), kNoFit);
+    if (!worst) continue;
+    const Curve& curve = fits[g].data.curves[worst->curve];
+    fit.findings.push_back(
+        {.kind = FitFindingKind::kUnexplained,
+         .missing = {{groups[g].directions[curve.response], groups[g].directions[curve.reference]}},
+         .error = worst->error,
+         .restricted = restricted,
+         .lo_hz = worst->lo_hz,
+         .hi_hz = worst->hi_hz});
+  }
 }
 
 void judge(const dynamics::FrequencyResponse& measured, const std::vector<Group>& groups,
@@ -233,11 +285,22 @@ void judge(const dynamics::FrequencyResponse& measured, const std::vector<Group>
   } else if (!missing.empty() && groups.size() > 1) {
     fit.findings.push_back({.kind = FitFindingKind::kTakenAsUncoupled, .missing = missing});
   }
-  if (fit.limited_by_model) judge_model_error(options, fit);
-  if (fit.model.modes.empty()) throw NoAnswer("no mode stands out of the noise");
+  judge_entries(measured, groups, fits, fit);
+  if (fit.limited_by_model) {
+    fit.findings.push_back({.kind = FitFindingKind::kModelError,
+                            .error = fit.relative_error,
+                            .restricted = fit.mode_model != ModeModel::kNonsymmetric});
+  }
+  if (!fit.converged) fit.findings.push_back({.kind = FitFindingKind::kNotConverged});
+  judge_explained(groups, fits, options, fit);
 }
 
 }  // namespace
+
+bool is_no_answer(FitFindingKind kind) {
+  return kind == FitFindingKind::kNoMode || kind == FitFindingKind::kNotConverged ||
+         kind == FitFindingKind::kUnexplained;
+}
 
 ModalFit fit_modes(const dynamics::FrequencyResponse& measured, const FitOptions& options) {
   check(measured);

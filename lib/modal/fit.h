@@ -43,6 +43,13 @@ enum class FitFindingKind {
   kSelectionUnsettled,  ///< the selection was ended after its last round, with `modes` in all
   kByReciprocity,       ///< entries `missing`: what they would tell follows by reciprocity, or is zero
   kTakenAsUncoupled,    ///< entries `missing` alone could connect some directions
+  kDelayed,             ///< the response of entry missing[0] comes `delay_s` late
+  kAllDelayed,          ///< the responses of all entries do, as far as can be told
+  kScaled,              ///< entry missing[0], or else missing[1], is `factor` times what fits the others
+  // Of these a table is no answer (is_no_answer):
+  kNoMode,        ///< none in the band stands out of the noise
+  kNotConverged,  ///< the last refinement of some group
+  kUnexplained,   ///< modes leave `error` of entry missing[0] from `lo_hz` to `hi_hz`, or of all curves
   /// The residual is larger than the noise or not white, and leaves the share `error` of the curves: of modes
   /// as a restricted model has them (`restricted`), or of the strongest modes.
   kModelError
@@ -52,10 +59,15 @@ enum class FitFindingKind {
 struct FitFinding {
   FitFindingKind kind;
   std::size_t modes = 0;
-  std::vector<EntryName> missing{};
+  std::vector<EntryName> missing{};  ///< entries that are missing, or that the finding is about
   double error = 0;
   bool restricted = false;
+  double delay_s = 0, factor = 1;
+  double lo_hz = 0, hi_hz = 0;
 };
+
+/// Whether what was fitted is no answer: nobody should cut with that table.
+bool is_no_answer(FitFindingKind kind);
 
 struct ModalFit {
   dynamics::ModalModel model;  ///< modes by frequency; out of band marked; with its covariance
@@ -82,8 +94,8 @@ struct ModalFit {
 /// (no force in that direction, or no response) is set by reciprocity; directions that only missing entries
 /// could connect are taken as uncoupled; both are findings.
 ///
-/// Throws InvalidArgument for data that cannot be fitted, NoAnswer when no mode stands out of the noise, or
-/// the modes leave half of the curves unexplained.
+/// Throws InvalidArgument for data that cannot be fitted, NoAnswer when all entries are zero. What was found
+/// may be no answer even so: see is_no_answer.
 ModalFit fit_modes(const dynamics::FrequencyResponse& measured, const FitOptions& options = {});
 
 }  // namespace stablecut::modal

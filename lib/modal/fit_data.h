@@ -16,6 +16,9 @@ struct Curve {
   Eigen::Index reference = 0;  ///< row of psi_l
   Eigen::VectorXcd h;          ///< [lines] m/N
   Eigen::VectorXd weight;      ///< [lines] 1 / variance of the complex value
+  /// [lines] The part of the error that all curves of one reference share: a curve's error is that times one
+  /// unit complex normal number for each reference and line, plus an error of its own. Empty: none.
+  Eigen::VectorXcd shared{};
 };
 
 /// The curves of one independent group of directions.

@@ -3,11 +3,14 @@
 #include <complex>
 
 #include "modal/likelihood.h"
+#include "modal/shape_errors.h"
 
 namespace stablecut::modal {
 namespace {
 
 using Complex = std::complex<double>;
+
+constexpr double kUnknownAverages = 6;  // behind a measurement that does not say how many
 
 // Directions that responded in some curve, and directions in which a force was applied.
 struct Seen {
@@ -72,6 +75,34 @@ Eigen::MatrixXd complete_by_reciprocity(const Seen& seen, const ModeParameters& 
   return slope;
 }
 
+// Noise of the force makes the quotient of spectra too small by its share of one average's power: the
+// relative variance that the curves of a reference share, times the averages. One change of all coordinates
+// for each reference, of one standard deviation.
+std::vector<Eigen::VectorXd> scale_shifts(const FitData& data, const ModeParameters& parameters,
+                                          const std::vector<dynamics::Mode>& modes) {
+  std::vector<Eigen::VectorXd> shifts;
+  for (Eigen::Index reference = 0; reference < data.dofs; ++reference) {
+    const auto curve = std::find_if(data.curves.begin(), data.curves.end(), [&](const Curve& c) {
+      return c.reference == reference && c.shared.size() > 0;
+    });
+    if (curve == data.curves.end()) continue;
+    Eigen::VectorXd shift = Eigen::VectorXd::Zero(parameters.modes() * parameters.coordinates_per_mode());
+    for (Eigen::Index k = 0; k < parameters.modes(); ++k) {
+      const Complex pole = modes[k].pole();
+      const Eigen::VectorXd distance = (data.s.imag().array() - pole.imag()).abs();
+      Eigen::Index line = 0;
+      distance.minCoeff(&line);
+      const double relative = kUnknownAverages * std::norm(curve->shared[line] / curve->h[line]);
+      const Complex change = relative * modes[k].psi_l[reference];
+      const Eigen::Index at = k * parameters.coordinates_per_mode() + parameters.left_at(reference);
+      shift[at] = change.real();
+      shift[at + 1] = change.imag();
+    }
+    shifts.push_back(shift);
+  }
+  return shifts;
+}
+
 }  // namespace
 
 FittedTable fitted_table(const FitData& data, const std::vector<dynamics::Mode>& modes, ModeModel model) {
@@ -82,19 +113,31 @@ FittedTable fitted_table(const FitData& data, const std::vector<dynamics::Mode>&
   const Seen seen(data);
   table.by_reciprocity = !seen.all();
   const Eigen::Index size = parameters.coordinates_per_mode();
+  Eigen::MatrixXd to_table = Eigen::MatrixXd::Zero(parameters.modes() * size, parameters.modes() * size);
   Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(parameters.modes() * size, parameters.size());
   const std::vector<dynamics::Mode> fitted = parameters.unpack(x);
   for (Eigen::Index k = 0; k < parameters.modes(); ++k) {
     dynamics::Mode mode = fitted[k];
     const Eigen::MatrixXd completion = complete_by_reciprocity(seen, parameters, mode);
+    to_table.block(k * size, k * size, size, size) = dynamics::normalisation_slope(mode) * completion;
     slope.block(k * size, parameters.pole_at(k), size, parameters.per_mode()) =
-        dynamics::normalisation_slope(mode) * completion * parameters.slope(x, k);
+        to_table.block(k * size, k * size, size, size) * parameters.slope(x, k);
     table.modes.push_back(dynamics::normalised(mode));
     table.modes.back().out_of_band = modes[k].out_of_band;
   }
   // The weights are 1 / E|error|^2 of the complex value, so each part has half of that variance.
   const Likelihood likelihood(data, parameters, out_of_band(data, modes));
-  table.covariance = slope * (inverse_normal_matrix(likelihood.evaluate(x, true)) / 2) * slope.transpose();
+  const NormalEquations normal = likelihood.evaluate(x, true);
+  table.covariance = slope * (inverse_normal_matrix(normal) / 2) * slope.transpose();
+  std::vector<Eigen::VectorXd> shifts = scale_shifts(data, parameters, fitted);
+  if (model == ModeModel::kNonsymmetric) {
+    for (Eigen::VectorXd& error : shape_errors(data, parameters, x, normal))
+      shifts.push_back(std::move(error));
+  }
+  for (const Eigen::VectorXd& shift : shifts) {
+    const Eigen::VectorXd change = to_table * shift;
+    table.covariance += change * change.transpose();
+  }
   return table;
 }
 

@@ -24,7 +24,7 @@ RefinedModes GroupFit::refine(const std::vector<dynamics::Mode>& modes, const Ef
 
 void GroupFit::weigh(Regime regime_now) {
   regime = regime_now;
-  weigh_curves(data, variance, regime);
+  weigh_curves(data, variance, shared, regime);
 }
 
 double GroupFit::parameters_per_mode() const {

@@ -14,10 +14,12 @@ namespace stablecut::modal {
 struct GroupFit {
   FitData data;                  ///< the curves, with weights from `variance` and `regime`
   CurveVariances variance;       ///< of the noise
+  CurveVariances shared;         ///< relative variance of what curves of one reference share; empty: nothing
   bool noise_estimated = false;  ///< `variance` was estimated, not given
   Regime regime = Regime::kNoise;
   ModeModel model = ModeModel::kNonsymmetric;
   RefinedModes refined;           ///< the modes, with their chi-square
+  Eigen::VectorXcd start_poles;   ///< of the curves, each with residues of its own
   bool selection_settled = true;  ///< no mode was left to be added or removed when the selection ended
 
   const std::vector<dynamics::Mode>& modes() const { return refined.modes; }

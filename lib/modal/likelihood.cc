@@ -57,28 +57,49 @@ void add_gradient(const std::vector<CurveDerivative>& derivatives, const ErrorPo
   }
 }
 
-// J^T J of one curve. The columns of J for a coordinate are t g + conj(t) g' and the same with i t for t.
+// The four products of the real and imaginary parts of two coordinates, to the place (p, q) of J^T J and, if
+// wanted, to its mirror image. The columns of J for a coordinate are t g + conj(t) g' and the same with i t
+// for t; `same` ... `left` are conj(t g) (t g), conj(conj(t) g') (conj(t) g'), conj(t g) (conj(t) g') and
+// conj(conj(t) g') (t g), summed over the lines with the weights between the two curves.
+void add_products(const CurveDerivative& p, const CurveDerivative& q, Complex same, Complex both,
+                  Complex right, Complex left, bool mirrored, Eigen::MatrixXd& matrix) {
+  // t -> i t multiplies t by i and conj(t) by -i.
+  const double re_re = (same + both + right + left).real(), im_im = (same + both - right - left).real(),
+               re_im = (-same + both + right - left).imag(), im_re = (same - both + right - left).imag();
+  matrix(p.at, q.at) += re_re;
+  matrix(p.at, q.at + 1) += re_im;
+  matrix(p.at + 1, q.at) += im_re;
+  matrix(p.at + 1, q.at + 1) += im_im;
+  if (!mirrored) return;
+  matrix(q.at, p.at) += re_re;
+  matrix(q.at + 1, p.at) += re_im;
+  matrix(q.at, p.at + 1) += im_re;
+  matrix(q.at + 1, p.at + 1) += im_im;
+}
+
+// J^T J of one curve.
 void add_matrix(const std::vector<CurveDerivative>& derivatives, const PoleGrams& grams,
                 Eigen::MatrixXd& matrix) {
   for (std::size_t a = 0; a < derivatives.size(); ++a) {
     for (std::size_t b = a; b < derivatives.size(); ++b) {
       const CurveDerivative &p = derivatives[a], &q = derivatives[b];
-      const Complex same = std::conj(p.t) * q.t * grams.same(p.f, q.f);
-      const Complex both = p.t * std::conj(q.t) * grams.mirrored(p.f, q.f);
-      const Complex right = std::conj(p.t) * std::conj(q.t) * grams.across(p.f, q.f);
-      const Complex left = p.t * q.t * std::conj(grams.across(q.f, p.f));
-      // t -> i t multiplies t by i and conj(t) by -i.
-      const double re_re = (same + both + right + left).real(), im_im = (same + both - right - left).real(),
-                   re_im = (-same + both + right - left).imag(), im_re = (same - both + right - left).imag();
-      matrix(p.at, q.at) += re_re;
-      matrix(p.at, q.at + 1) += re_im;
-      matrix(p.at + 1, q.at) += im_re;
-      matrix(p.at + 1, q.at + 1) += im_im;
-      if (a == b) continue;
-      matrix(q.at, p.at) += re_re;
-      matrix(q.at + 1, p.at) += re_im;
-      matrix(q.at, p.at + 1) += im_re;
-      matrix(q.at + 1, p.at + 1) += im_im;
+      add_products(p, q, std::conj(p.t) * q.t * grams.same(p.f, q.f),
+                   p.t * std::conj(q.t) * grams.mirrored(p.f, q.f),
+                   std::conj(p.t) * std::conj(q.t) * grams.across(p.f, q.f),
+                   p.t * q.t * std::conj(grams.across(q.f, p.f)), a != b, matrix);
+    }
+  }
+}
+
+// What correlated errors of two curves add to J^T J.
+void add_matrix(const std::vector<CurveDerivative>& first, const std::vector<CurveDerivative>& second,
+                const PoleGrams& grams, Eigen::MatrixXd& matrix) {
+  for (const CurveDerivative& p : first) {
+    for (const CurveDerivative& q : second) {
+      add_products(p, q, std::conj(p.t) * q.t * grams.same(p.f, q.f),
+                   p.t * std::conj(q.t) * grams.mirrored(p.f, q.f),
+                   std::conj(p.t) * std::conj(q.t) * grams.across(p.f, q.f), p.t * q.t * grams.back(p.f, q.f),
+                   true, matrix);
     }
   }
 }
@@ -136,16 +157,21 @@ NormalEquations Likelihood::evaluate(const Eigen::Ref<const Eigen::VectorXd>& x,
       residue(k, c) = mode.psi_r[curve.response] * mode.psi_l[curve.reference];
     }
   }
-  std::vector<ErrorPoleSums> sums_of_curves;
-  sums.chi_square = residual_.evaluate(poles, residue, with_matrix ? &sums_of_curves : nullptr);
+  PoleSums over_lines;
+  sums.chi_square = residual_.evaluate(poles, residue, with_matrix ? &over_lines : nullptr);
   if (with_matrix) {
     PoleGrams grams(poles);
-    for (std::size_t c = 0; c < sums_of_curves.size(); ++c) {
-      const std::vector<CurveDerivative> derivatives =
-          curve_derivatives(parameters_, data_.curves[c], modes, residue.col(c));
-      grams.evaluate(sums_of_curves[c].weight, sums_of_curves[c].weight_squared);
-      add_gradient(derivatives, sums_of_curves[c], sums.gradient);
-      add_matrix(derivatives, grams, sums.matrix);
+    std::vector<std::vector<CurveDerivative>> derivatives;
+    for (std::size_t c = 0; c < over_lines.curves.size(); ++c) {
+      const ErrorPoleSums& of_curve = over_lines.curves[c];
+      derivatives.push_back(curve_derivatives(parameters_, data_.curves[c], modes, residue.col(c)));
+      grams.evaluate(of_curve.weight, of_curve.weight_squared);
+      add_gradient(derivatives[c], of_curve, sums.gradient);
+      add_matrix(derivatives[c], grams, sums.matrix);
+    }
+    for (const PairPoleSums& pair : over_lines.pairs) {
+      grams.evaluate(pair.weight, pair.weight_squared, pair.mirror, pair.mirror_squared);
+      add_matrix(derivatives[pair.first], derivatives[pair.second], grams, sums.matrix);
     }
   }
   NormalEquations result = with_matrix ? to_parameters(parameters_, x, sums) : std::move(sums);

@@ -13,7 +13,7 @@ namespace stablecut::modal {
 /// With r the weighted residual of all curves and J its Jacobian with respect to the parameters: |r|^2, J^T
 /// r, J^T J.
 struct NormalEquations {
-  double chi_square = 0;     ///< sum over lines and curves of |model - h|^2 / variance
+  double chi_square = 0;     ///< sum over lines and curves of |model - h|^2 / variance, see Curve::shared
   Eigen::VectorXd gradient;  ///< [parameters]
   Eigen::MatrixXd matrix;    ///< [parameters x parameters]
 };

@@ -8,6 +8,7 @@
 
 #include "modal/likelihood.h"
 #include "modal/pole_sums.h"
+#include "modal/residual_sums.h"
 
 namespace stablecut::modal {
 namespace {
@@ -136,11 +137,15 @@ Eigen::VectorXcd curve_of(const std::vector<dynamics::Mode>& modes, const Curve&
 }
 
 double chi_square_of(const FitData& data, const std::vector<dynamics::Mode>& modes) {
-  double sum = 0;
-  for (const Curve& curve : data.curves) {
-    sum += (curve_of(modes, curve, data.s) - curve.h).cwiseAbs2().dot(curve.weight);
+  Eigen::VectorXcd poles(modes.size());
+  Eigen::MatrixXcd residue(modes.size(), data.curves.size());
+  for (Eigen::Index k = 0; k < poles.size(); ++k) {
+    const dynamics::Mode& mode = modes[k];
+    poles[k] = mode.pole();
+    for (Eigen::Index c = 0; c < residue.cols(); ++c)
+      residue(k, c) = mode.psi_r[data.curves[c].response] * mode.psi_l[data.curves[c].reference];
   }
-  return sum;
+  return ResidualSums(data).evaluate(poles, residue, nullptr);
 }
 
 }  // namespace stablecut::modal

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "modal/fitted_table.h"
+#include "modal/likelihood.h"
 #include "modal/modal_fixtures_test.h"
 
 using namespace stablecut;
@@ -77,5 +78,68 @@ TEST_CASE("standard deviations are the Cramer-Rao bound") {
           Approx(mode.frequency_hz * std::sqrt(covariance(8 * k, 8 * k))).epsilon(1e-4));
     CHECK(std::sqrt(table(10 * k + 1, 10 * k + 1)) ==
           Approx(mode.damping_ratio * std::sqrt(covariance(8 * k + 1, 8 * k + 1))).epsilon(1e-4));
+  }
+}
+
+// Against the quadratic form with the whole covariance matrix of each line, and its central differences.
+TEST_CASE("errors that curves of one reference share enter chi-square, gradient and information") {
+  const dynamics::ModalModel truth = fixtures::close_pair();
+  FitData data = fixtures::data_of(truth, 1e-2);
+  for (std::size_t c = 0; c < data.curves.size(); ++c) {
+    Curve& curve = data.curves[c];
+    curve.shared = 0.9 * curve.weight.cwiseInverse().cwiseSqrt().cwiseProduct(
+                             curve.h.cwiseQuotient(curve.h.cwiseAbs().cast<Complex>()));
+    // Some error, different on each line and curve.
+    for (Eigen::Index i = 0; i < data.lines(); ++i)
+      curve.h[i] *= 1.0 + std::polar(0.02, static_cast<double>(i * i + 3) * static_cast<double>(c + 1));
+  }
+  const ModeParameters parameters(truth.modes, 2, ModeModel::kNonsymmetric);
+  const Likelihood likelihood(data, parameters, out_of_band(data, truth.modes));
+  const Eigen::VectorXd x = parameters.pack(truth.modes);
+  const auto errors = [&](const Eigen::VectorXd& at) {
+    std::vector<Eigen::VectorXcd> result;
+    for (const Curve& curve : data.curves)
+      result.push_back(curve_of(parameters.unpack(at), curve, data.s) - curve.h);
+    return result;
+  };
+  // sum over lines of Re a^H V^-1 b.
+  const auto product = [&](const std::vector<Eigen::VectorXcd>& a, const std::vector<Eigen::VectorXcd>& b) {
+    double sum = 0;
+    for (Eigen::Index i = 0; i < data.lines(); ++i) {
+      Eigen::Matrix4cd covariance = Eigen::Matrix4cd::Zero();
+      Eigen::Vector4cd left, right;
+      for (Eigen::Index c = 0; c < 4; ++c) {
+        left[c] = a[c][i];
+        right[c] = b[c][i];
+        covariance(c, c) = 1 / data.curves[c].weight[i];
+        for (Eigen::Index d = 0; d < 4; ++d) {
+          const Curve &p = data.curves[c], &q = data.curves[d];
+          if (c != d && p.reference == q.reference) covariance(c, d) = p.shared[i] * std::conj(q.shared[i]);
+        }
+      }
+      sum += left.dot(covariance.inverse() * right).real();
+    }
+    return sum;
+  };
+  const NormalEquations normal = likelihood.evaluate(x, true);
+  CHECK(normal.chi_square == Approx(product(errors(x), errors(x))).epsilon(1e-9));
+  CHECK(likelihood.evaluate(x, false).chi_square == normal.chi_square);
+  std::vector<std::vector<Eigen::VectorXcd>> slopes;
+  const double step = 1e-6;
+  for (Eigen::Index p = 0; p < x.size(); ++p) {
+    Eigen::VectorXd up = x, down = x;
+    up[p] += step;
+    down[p] -= step;
+    slopes.push_back(errors(up));
+    const auto below = errors(down);
+    for (std::size_t c = 0; c < below.size(); ++c) slopes[p][c] = (slopes[p][c] - below[c]) / (2 * step);
+  }
+  Eigen::VectorXd size(x.size());
+  for (Eigen::Index p = 0; p < x.size(); ++p) size[p] = std::sqrt(product(slopes[p], slopes[p]));
+  for (Eigen::Index p = 0; p < x.size(); ++p) {
+    CHECK(std::abs(normal.gradient[p] - product(slopes[p], errors(x))) <
+          1e-6 * size[p] * std::sqrt(normal.chi_square));
+    for (Eigen::Index q = 0; q < x.size(); ++q)
+      CHECK(std::abs(normal.matrix(p, q) - product(slopes[p], slopes[q])) < 1e-6 * size[p] * size[q]);
   }
 }

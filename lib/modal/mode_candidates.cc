@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "modal/error_weights.h"
 #include "modal/maximum_likelihood.h"
 #include "numerics/lanes.h"
 
@@ -36,13 +37,16 @@ WeightedResiduals weighted_residuals(const FitData& data, const std::vector<dyna
   WeightedResiduals result;
   result.omega = Eigen::ArrayXd::Constant(lines, data.highest());
   result.omega.head(data.lines()) = data.s.imag();
-  for (const Curve& curve : data.curves) {
-    const Eigen::VectorXcd left = curve.h - curve_of(modes, curve, data.s);
+  const std::vector<ErrorWeights> weights = error_weights(data);
+  std::vector<Eigen::VectorXcd> left;
+  for (const Curve& curve : data.curves) left.push_back(curve.h - curve_of(modes, curve, data.s));
+  left = weighted_errors(data, weights, std::move(left));
+  for (std::size_t c = 0; c < left.size(); ++c) {
     WeightedResidual weighted;
     weighted.weight = weighted.re = weighted.im = Eigen::ArrayXd::Zero(lines);
-    weighted.weight.head(data.lines()) = curve.weight;
-    weighted.re.head(data.lines()) = curve.weight.array() * left.real().array();
-    weighted.im.head(data.lines()) = curve.weight.array() * left.imag().array();
+    weighted.weight.head(data.lines()) = weights[c].diagonal();
+    weighted.re.head(data.lines()) = left[c].real();
+    weighted.im.head(data.lines()) = left[c].imag();
     result.curves.push_back(std::move(weighted));
   }
   return result;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "modal/shared_noise.h"
 #include "modal/start_modes.h"
 
 namespace stablecut::modal {
@@ -40,21 +41,51 @@ void rescue(GroupFit& fit, const SelectionOptions& options) {
   }
 }
 
+// Whether curves share errors in one of the two and not in the other.
+bool tell_otherwise(const CurveVariances& a, const CurveVariances& b) {
+  const auto tells = [](const CurveVariances& shared, std::size_t c) {
+    return c < shared.size() && shared[c].size() > 0;
+  };
+  for (std::size_t c = 0; c < std::max(a.size(), b.size()); ++c)
+    if (tells(a, c) != tells(b, c)) return true;
+  return false;
+}
+
+// The modes have taken some of the noise with them: values over degrees of freedom.
+double correction_of(const GroupFit& fit) {
+  const double values = fit.data.values();
+  const double parameters = fit.parameters_per_mode() * static_cast<double>(fit.modes().size());
+  return values / std::max(values - parameters, 1.0);
+}
+
 // Noise once the modes are known, from all of the residual: the fewer numbers describe it, the surer the
 // weights. What smooth shapes do not describe may be modes; when these have been looked for, it is noise of
 // that place.
 GroupFit with_settled_noise(GroupFit fit, const SelectionOptions& options) {
   for (const bool local_allowed : {false, true}) {
-    const double values = fit.data.values();
-    const double parameters = fit.parameters_per_mode() * static_cast<double>(fit.modes().size());
-    const double correction = values / std::max(values - parameters, 1.0);
+    const double correction = correction_of(fit);
     ResidualVariances now = residual_as_noise(fit.data, fit.modes(), correction, local_allowed);
-    const bool changed = differ_much(now.variance, fit.variance);
+    CurveVariances shared = shared_noise(fit.data, fit.modes(), correction, local_allowed, now.variance);
+    const bool changed = differ_much(now.variance, fit.variance) || tell_otherwise(shared, fit.shared);
     fit.variance = std::move(now.variance);
+    fit.shared = std::move(shared);
     fit.weigh(fit.regime);
     fit.refined = fit.refine(fit.modes(), kBetween);
     if (changed) select_modes(fit, options);
     if (!now.is_local) break;
+  }
+  return fit;
+}
+
+// A given variance says nothing of what curves share: where they do, the residual tells both parts.
+GroupFit with_shared_noise(GroupFit fit, const SelectionOptions& options) {
+  for (const bool local_allowed : {false, true}) {
+    const bool known = tell_otherwise(fit.shared, {});
+    fit.shared = shared_noise(fit.data, fit.modes(), correction_of(fit), local_allowed, fit.variance);
+    if (!known && !tell_otherwise(fit.shared, {})) return fit;
+    fit.weigh(fit.regime);
+    fit.refined = fit.refine(fit.modes(), kBetween);
+    if (!known) select_modes(fit, options);
   }
   return fit;
 }
@@ -92,17 +123,29 @@ GroupFit from_strongest(GroupFit fit, const SelectionOptions& options) {
 GroupFit settled(GroupFit fit, const SelectionOptions& options) {
   if (fit.exceeds_noise()) return from_strongest(std::move(fit), options);
   if (floors_decide(fit.data, fit.regime)) return without_noise(fit, options);
-  if (!fit.noise_estimated) return fit;
+  if (!fit.noise_estimated) return with_shared_noise(std::move(fit), options);
   GroupFit result = with_settled_noise(fit, options);
   if (result.residual_is_white() && !result.is_crowded()) return result;
   return from_strongest(std::move(fit), options);
+}
+
+// The last refinement may still make a mode too narrow to be one.
+void refine_to_the_end(GroupFit& fit) {
+  fit.refined = fit.refine(fit.modes(), kLast);
+  const auto is_narrow = [&](const dynamics::Mode& mode) { return is_too_narrow(fit.data, mode); };
+  while (std::any_of(fit.modes().begin(), fit.modes().end(), is_narrow)) {
+    std::vector<dynamics::Mode> wider = fit.modes();
+    std::erase_if(wider, is_narrow);
+    fit.refined = fit.refine(wider, kLast);
+  }
 }
 
 }  // namespace
 
 GroupFit search_modes(FitData data, CurveVariances variance, const SelectionOptions& options) {
   GroupFit fit = weighted(std::move(data), std::move(variance));
-  fit.refined = start_modes(fit);
+  fit.start_poles = find_poles(fit);
+  fit.refined = start_modes(fit, fit.start_poles);
   if (fit.noise_estimated) estimate_noise(fit);
   rescue(fit, options);
   if (fit.exceeds_noise() && !fit.noise_estimated) {
@@ -113,16 +156,16 @@ GroupFit search_modes(FitData data, CurveVariances variance, const SelectionOpti
   }
   if (!fit.exceeds_noise()) select_modes(fit, options);
   fit = settled(std::move(fit), options);
-  fit.refined = fit.refine(fit.modes(), kLast);
+  refine_to_the_end(fit);
   return fit;
 }
 
 GroupFit in_model(GroupFit fit, ModeModel model, const SelectionOptions& options) {
   fit.model = model;
-  fit.refined = fit.refine(fit.modes(), kLast);
+  refine_to_the_end(fit);
   if (!fit.exceeds_noise()) {
     select_modes(fit, options);
-    fit.refined = fit.refine(fit.modes(), kLast);
+    refine_to_the_end(fit);
   }
   // The weights stay: all models are judged by the same.
   if (fit.exceeds_noise()) fit.regime = Regime::kModelError;

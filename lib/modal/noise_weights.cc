@@ -14,6 +14,7 @@ constexpr double kCoarseFloor = 1e-4;
 constexpr double kFineFloor = 1e-7;
 constexpr double kRmsShare = 0.01;
 constexpr double kDecidingShare = 0.01;  // of all weights, above which the floors are said to decide
+constexpr double kLeast = 1e-300;        // of |h|^2, in a quotient
 constexpr double kOtherNoise = 4;        // factor between two variances from which on modes are weighed again
 
 double floor_share(Regime regime) { return regime == Regime::kNoiseless ? kFineFloor : kCoarseFloor; }
@@ -24,7 +25,8 @@ double rms(const Curve& curve) {
 
 }  // namespace
 
-void weigh_curves(FitData& data, const CurveVariances& variance, Regime regime) {
+void weigh_curves(FitData& data, const CurveVariances& variance, const CurveVariances& shared,
+                  Regime regime) {
   double largest_rms = 0;
   for (const Curve& curve : data.curves) largest_rms = std::max(largest_rms, curve.h.norm());
   largest_rms /= std::sqrt(static_cast<double>(data.lines()));
@@ -37,6 +39,12 @@ void weigh_curves(FitData& data, const CurveVariances& variance, Regime regime) 
     curve.weight =
         (variance[e].array() + of_value * of_value * curve.h.array().abs2() + std::pow(of_rms * size, 2))
             .inverse();
+    curve.shared.resize(0);
+    if (regime == Regime::kModelError || shared.empty() || shared[e].size() == 0) continue;
+    // The floors are the curve's own.
+    const Eigen::ArrayXd share =
+        shared[e].array().min(variance[e].array() / curve.h.array().abs2().max(kLeast));
+    curve.shared = curve.h.array() * share.sqrt();
   }
 }
 

@@ -24,8 +24,10 @@ inline constexpr double kModelErrorFloor = 0.045;
 /// Variance E|error|^2 of the complex values, (m/N)^2: [curves][lines].
 using CurveVariances = std::vector<Eigen::VectorXd>;
 
-/// Sets the curves' weights to 1 / (variance + the regime's floors).
-void weigh_curves(FitData& data, const CurveVariances& variance, Regime regime);
+/// Sets the curves' weights to 1 / (variance + the regime's floors), and what of their errors they share by
+/// `shared`, a variance relative to the curve's square (nothing where it is empty, and where the model is the
+/// limit).
+void weigh_curves(FitData& data, const CurveVariances& variance, const CurveVariances& shared, Regime regime);
 
 /// Whether the floors of the regime, and not the variance, decide more than a percent of all weights.
 bool floors_decide(const FitData& data, Regime regime);

@@ -22,7 +22,7 @@ TEST_CASE("a weight is the inverse of the variance and the regime's floors") {
   };
   for (const Floors& floors : {Floors{Regime::kNoise, 1e-4, 1e-6}, Floors{Regime::kNoiseless, 1e-7, 1e-9},
                                Floors{Regime::kModelError, 1e-4, 0.045}}) {
-    weigh_curves(data, variance, floors.regime);
+    weigh_curves(data, variance, {}, floors.regime);
     for (std::size_t e = 0; e < 4; ++e) {
       const Curve& curve = data.curves[e];
       // A curve of zeros is as sure as the largest one.
@@ -44,7 +44,7 @@ TEST_CASE("the floors decide where there is next to no noise") {
         std::tuple(5e-4, Regime::kNoiseless, false)}) {
     CurveVariances variance;
     for (const Curve& curve : data.curves) variance.push_back(share * share * curve.h.cwiseAbs2());
-    weigh_curves(data, variance, regime);
+    weigh_curves(data, variance, {}, regime);
     INFO(share);
     CHECK(floors_decide(data, regime) == decide);
   }

@@ -115,23 +115,35 @@ PoleGrams::PoleGrams(const Eigen::VectorXcd& poles) : poles_(poles.size()), inve
   mirrored = across = same;
 }
 
-void PoleGrams::evaluate(const Eigen::VectorXcd& sum, const Eigen::VectorXcd& sum_squared) {
-  const auto fill = [&](Eigen::Index row, Eigen::Index column, Eigen::MatrixXcd& gram) {
-    for (Eigen::Index j = 0; j < poles_; ++j) {
-      for (Eigen::Index i = 0; i < poles_; ++i) {
-        const Eigen::Index a = row + i, b = column + j;
-        const Complex inverse = inverse_(a, b), of_b = sum_squared[b], of_a = std::conj(sum_squared[a]);
-        const Complex zeroth = (sum[b] + std::conj(sum[a])) * inverse;
-        gram(2 * i, 2 * j) = -zeroth;
-        gram(2 * i, 2 * j + 1) = (zeroth - of_b) * inverse;
-        gram(2 * i + 1, 2 * j) = (zeroth - of_a) * inverse;
-        gram(2 * i + 1, 2 * j + 1) = (of_b + of_a - 2.0 * zeroth) * inverse * inverse;
-      }
+void PoleGrams::fill(const Eigen::VectorXcd& sum, const Eigen::VectorXcd& sum_squared,
+                     const Eigen::VectorXcd& mirror, const Eigen::VectorXcd& mirror_squared, Eigen::Index row,
+                     Eigen::Index column, Eigen::MatrixXcd& gram) const {
+  for (Eigen::Index j = 0; j < poles_; ++j) {
+    for (Eigen::Index i = 0; i < poles_; ++i) {
+      const Eigen::Index a = row + i, b = column + j;
+      const Complex inverse = inverse_(a, b), of_b = sum_squared[b], of_a = std::conj(mirror_squared[a]);
+      const Complex zeroth = (sum[b] + std::conj(mirror[a])) * inverse;
+      gram(2 * i, 2 * j) = -zeroth;
+      gram(2 * i, 2 * j + 1) = (zeroth - of_b) * inverse;
+      gram(2 * i + 1, 2 * j) = (zeroth - of_a) * inverse;
+      gram(2 * i + 1, 2 * j + 1) = (of_b + of_a - 2.0 * zeroth) * inverse * inverse;
     }
-  };
-  fill(0, 0, same);
-  fill(poles_, poles_, mirrored);
-  fill(0, poles_, across);
+  }
+}
+
+void PoleGrams::evaluate(const Eigen::VectorXcd& sum, const Eigen::VectorXcd& sum_squared) {
+  fill(sum, sum_squared, sum, sum_squared, 0, 0, same);
+  fill(sum, sum_squared, sum, sum_squared, poles_, poles_, mirrored);
+  fill(sum, sum_squared, sum, sum_squared, 0, poles_, across);
+}
+
+void PoleGrams::evaluate(const Eigen::VectorXcd& sum, const Eigen::VectorXcd& sum_squared,
+                         const Eigen::VectorXcd& mirror, const Eigen::VectorXcd& mirror_squared) {
+  back.resize(2 * poles_, 2 * poles_);
+  fill(sum, sum_squared, mirror, mirror_squared, 0, 0, same);
+  fill(sum, sum_squared, mirror, mirror_squared, poles_, poles_, mirrored);
+  fill(sum, sum_squared, mirror, mirror_squared, 0, poles_, across);
+  fill(sum, sum_squared, mirror, mirror_squared, poles_, 0, back);
 }
 
 }  // namespace stablecut::modal

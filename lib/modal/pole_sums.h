@@ -39,14 +39,22 @@ class PoleGrams {
   explicit PoleGrams(const Eigen::VectorXcd& poles);
 
   /// From the sums of w phi and of w phi^2 over the lines, for all poles and then for their conjugates, with
-  /// weights w not negative.
+  /// real weights w.
   void evaluate(const Eigen::VectorXcd& sum, const Eigen::VectorXcd& sum_squared);
+  /// The same with complex weights, whose conjugates are in the sums `mirror`.
+  void evaluate(const Eigen::VectorXcd& sum, const Eigen::VectorXcd& sum_squared,
+                const Eigen::VectorXcd& mirror, const Eigen::VectorXcd& mirror_squared);
 
   Eigen::MatrixXcd same;      ///< [2 poles x 2 poles] sum w conj(g_a) g_b
   Eigen::MatrixXcd mirrored;  ///< sum w conj(g'_a) g'_b
   Eigen::MatrixXcd across;    ///< sum w conj(g_a) g'_b
+  Eigen::MatrixXcd back;      ///< sum w conj(g'_a) g_b: for real weights not filled, the adjoint of `across`
 
  private:
+  void fill(const Eigen::VectorXcd& sum, const Eigen::VectorXcd& sum_squared, const Eigen::VectorXcd& mirror,
+            const Eigen::VectorXcd& mirror_squared, Eigen::Index row, Eigen::Index column,
+            Eigen::MatrixXcd& gram) const;
+
   Eigen::Index poles_;
   Eigen::MatrixXcd inverse_;  // 1 / (b + conj a), of poles and conjugate poles
 };

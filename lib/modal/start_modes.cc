@@ -30,7 +30,7 @@ constexpr std::array kRigidPlaces = {0.5, 0.1, 0.02};
 constexpr double kRigidStartDamping = 0.05, kRigidSpread = 0.1;
 
 // Relocated poles, of so many pairs to start from, without those that do not matter.
-Eigen::VectorXcd find_poles(const GroupFit& fit, Eigen::Index pairs) {
+Eigen::VectorXcd relocated_poles(const GroupFit& fit, Eigen::Index pairs) {
   const FitData& data = fit.data;
   Eigen::VectorXcd poles = starting_poles(data, pairs);
   for (int i = 0; i < kRelocations; ++i) poles = relocate_poles(data, poles);
@@ -52,18 +52,6 @@ Eigen::VectorXcd find_poles(const GroupFit& fit, Eigen::Index pairs) {
     std::sort(kept.begin(), kept.end());
     poles = poles(kept).eval();
     for (int i = 0; i < kRelocationsAfterPruning; ++i) poles = relocate_poles(data, poles);
-  }
-  return poles;
-}
-
-// From more pairs where nearly all of them matter.
-Eigen::VectorXcd find_poles(const GroupFit& fit) {
-  const Eigen::Index lines = fit.data.lines();
-  Eigen::VectorXcd poles;
-  for (Eigen::Index pairs = kStartPairs; pairs <= kMostStartPairs; pairs *= 2) {
-    poles = find_poles(fit, std::min(pairs, lines / kLinesPerPair));
-    const bool crowded = static_cast<double>(poles.size()) >= kCrowdedStart * static_cast<double>(pairs);
-    if (!crowded || kLinesPerPair * pairs >= lines) break;
   }
   return poles;
 }
@@ -106,8 +94,20 @@ RefinedModes with_rigid_body(const GroupFit& fit, RefinedModes start) {
 
 }  // namespace
 
-RefinedModes start_modes(const GroupFit& fit) {
-  return with_rigid_body(fit, fit.refine(modes_at(fit.data, find_poles(fit)), kStartEffort));
+// From more pairs where nearly all of them matter.
+Eigen::VectorXcd find_poles(const GroupFit& fit) {
+  const Eigen::Index lines = fit.data.lines();
+  Eigen::VectorXcd poles;
+  for (Eigen::Index pairs = kStartPairs; pairs <= kMostStartPairs; pairs *= 2) {
+    poles = relocated_poles(fit, std::min(pairs, lines / kLinesPerPair));
+    const bool crowded = static_cast<double>(poles.size()) >= kCrowdedStart * static_cast<double>(pairs);
+    if (!crowded || kLinesPerPair * pairs >= lines) break;
+  }
+  return poles;
+}
+
+RefinedModes start_modes(const GroupFit& fit, const Eigen::VectorXcd& poles) {
+  return with_rigid_body(fit, fit.refine(modes_at(fit.data, poles), kStartEffort));
 }
 
 }  // namespace stablecut::modal

@@ -5,8 +5,11 @@
 
 namespace stablecut::modal {
 
-/// Poles of the weighted curves by vector fitting, those that matter, as modes with the nearest residues of
-/// rank one, refined; the rigid body of a suspended structure as one mode for each direction.
-RefinedModes start_modes(const GroupFit& fit);
+/// Poles of the weighted curves by vector fitting, those that matter (rad/s).
+Eigen::VectorXcd find_poles(const GroupFit& fit);
+
+/// Modes at such poles with the nearest residues of rank one, refined; the rigid body of a suspended
+/// structure as one mode for each direction.
+RefinedModes start_modes(const GroupFit& fit, const Eigen::VectorXcd& poles);
 
 }  // namespace stablecut::modal

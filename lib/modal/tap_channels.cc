@@ -11,11 +11,6 @@ constexpr double kDeadShare = 0.6;           // noise over |H| from which on a w
 constexpr double kDeadWindows = 0.8;         // share of such windows from which on a channel is dead
 constexpr std::ptrdiff_t kSwappedRatio = 4;  // windows with the wrong sign for one with the right one
 
-bool is_driving_point(const dynamics::FrequencyResponseEntry& entry) {
-  return entry.response == entry.reference &&
-         entry.response_position_m.value_or(0) == entry.reference_position_m.value_or(0);
-}
-
 // A driving point takes energy: Im H_ii <= 0.
 bool has_swapped_sign(const std::vector<WindowSummary>& windows) {
   const auto count = [&](double sign) {
@@ -43,10 +38,10 @@ std::vector<Channel> channels_of(const dynamics::FrequencyResponse& receptance) 
     if (entry.h.isZero(0)) continue;
     Channel channel;
     channel.entry = &entry;
-    channel.variance = dynamics::estimated_variance(hz, entry.h, entry.h.cwiseAbs(), floors);
+    channel.variance = dynamics::estimated_variance(hz, entry.h, entry.h.cwiseAbs(), floors, true);
     for (const LineSpan& window : windows)
       channel.windows.push_back(summary_of(window, hz, entry.h, channel.variance));
-    channel.driving_point = is_driving_point(entry);
+    channel.driving_point = entry.is_driving_point();
     channel.swapped = channel.driving_point && has_swapped_sign(channel.windows);
     channel.dead = is_dead(channel.windows);
     channels.push_back(std::move(channel));

@@ -6,6 +6,7 @@
 
 #include "base/units.h"
 #include "modal/disturbed_lines.h"
+#include "modal/low_end.h"
 #include "modal/tap_channels.h"
 #include "numerics/order_statistics.h"
 
@@ -19,10 +20,6 @@ using Findings = std::vector<TapFinding>;
 constexpr Eigen::Index kLeastTapLines = 20;  // of fewer nothing is said
 constexpr double kUnevenLines = 1.05;        // largest over smallest distance of lines
 constexpr double kRoundedLines = 0.5;        // of the mean distance: rounded frequencies are off by less
-// Drift rises towards 0 Hz by a factor of at least kDriftRise over what follows it. It ends where a curve
-// that is clear of noise (kClear) rises by kRising on the way to a resonance, and reaches up to a part of the
-// band at most.
-constexpr double kDriftRise = 2, kClear = 0.1, kRising = 1.3, kDriftReach = 3;
 // A part of H counts where it is so many deviations of the noise.
 constexpr double kSignificant = 2;
 constexpr double kWrongSign = 0.8;  // share of what counts with a sign from which on that is said
@@ -69,43 +66,20 @@ void check_dead_channels(const dynamics::FrequencyResponse& receptance, const st
   }
 }
 
-// Noise, or no driving point's.
-bool tells_nothing(const Channel& channel, const WindowSummary& window) {
-  const double positive = channel.swapped ? -window.imaginary : window.imaginary;
-  return window.noise > kNoiseShare || (channel.driving_point && positive > kPositiveShare);
-}
-
-// Up to where integration has ruined a channel: there |H| falls from 0 Hz on, and tells nothing. It ends
-// where a clear curve rises, on the way to a resonance.
-std::optional<double> drift_up_to(const Channel& channel, double highest_hz) {
-  const std::vector<WindowSummary>& windows = channel.windows;
-  std::size_t ruined = 0;
-  double least = windows[0].size;
-  for (std::size_t i = 0; i < windows.size(); ++i) {
-    const WindowSummary& window = windows[i];
-    least = std::min(least, window.size);
-    if (tells_nothing(channel, window)) {
-      ruined = i + 1;
-    } else if (window.noise < kClear && window.size > kRising * least) {
-      break;
-    }
-  }
-  if (ruined == 0 || ruined == windows.size()) return std::nullopt;
-  const bool rises = windows[0].size >= kDriftRise * windows[ruined].size;
-  const double up_to = windows[ruined - 1].hi_hz;
-  return rises && kDriftReach * up_to <= highest_hz ? std::optional(up_to) : std::nullopt;
-}
-
 // The frequency above which all channels are usable, Hz. Driving points tell most; others count only where
 // there is none.
-double check_low_end(const std::vector<Channel>& channels, double highest_hz, Findings& findings) {
+double check_low_end(const Eigen::VectorXd& hz, const std::vector<Channel>& channels, Findings& findings) {
   const bool any_driving = std::any_of(channels.begin(), channels.end(),
                                        [](const Channel& c) { return c.driving_point && !c.dead; });
-  double usable_from = 0;
+  double risen_hz = hz[hz.size() - 1], usable_from = 0;
+  for (const Channel& channel : channels) {
+    if (!channel.dead && channel.driving_point == any_driving)
+      risen_hz = std::min(risen_hz, first_rise_hz(hz, channel));
+  }
   EntryName worst;
   for (const Channel& channel : channels) {
     if (channel.dead || channel.driving_point != any_driving) continue;
-    const std::optional<double> up_to = drift_up_to(channel, highest_hz);
+    const std::optional<double> up_to = ruined_up_to(hz, channel, risen_hz);
     if (!up_to || *up_to <= usable_from) continue;
     usable_from = *up_to;
     worst = channel.name();
@@ -313,7 +287,7 @@ TapReport check_tap(const dynamics::FrequencyResponse& receptance, bool zeros_ar
   const std::vector<Channel> channels = channels_of(receptance);
   check_spacing(hz, report.findings);
   check_dead_channels(receptance, channels, zeros_are_dead, report.findings);
-  const double usable_from_hz = check_low_end(channels, hz[hz.size() - 1], report.findings);
+  const double usable_from_hz = report.usable_from_hz = check_low_end(hz, channels, report.findings);
   check_high_end(channels, report.findings);
   check_signs(channels, usable_from_hz, report.findings);
   check_mirrors(hz, channels, usable_from_hz, report.findings);

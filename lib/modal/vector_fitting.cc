@@ -227,7 +227,7 @@ LinearResidues linear_residues(const FitData& data, const Eigen::VectorXcd& pole
   const PoleValues values(data.s, poles);
   LinearResidues result;
   result.residue.resize(n, data.curves.size());
-  result.removal_loss = Eigen::VectorXd::Zero(n);
+  result.loss.resize(n, data.curves.size());
   for (std::size_t e = 0; e < data.curves.size(); ++e) {
     const Curve& curve = data.curves[e];
     const auto sums = data_pole_sums(data.s, poles, curve.weight, curve.h);
@@ -238,12 +238,14 @@ LinearResidues linear_residues(const FitData& data, const Eigen::VectorXcd& pole
     for (Eigen::Index k = 0; k < n; ++k) {
       residue[k] = {coefficient[2 * k], coefficient[2 * k + 1]};
       const Eigen::Vector2d pair = coefficient.segment<2>(2 * k);
-      result.removal_loss[k] += pair.dot(Eigen::Matrix2d(inverse.block<2, 2>(2 * k, 2 * k)).inverse() * pair);
+      result.loss(k, static_cast<Eigen::Index>(e)) =
+          pair.dot(Eigen::Matrix2d(inverse.block<2, 2>(2 * k, 2 * k)).inverse() * pair);
     }
     result.residue.col(e) = residue;
     const Eigen::VectorXcd error = values.phi * residue + values.phi_conj * residue.conjugate() - curve.h;
     result.chi_square += error.cwiseAbs2().dot(curve.weight);
   }
+  result.removal_loss = result.loss.rowwise().sum();
   return result;
 }
 

@@ -25,6 +25,7 @@ Eigen::VectorXcd relocate_poles(const FitData& data, const Eigen::VectorXcd& pol
 struct LinearResidues {
   Eigen::MatrixXcd residue;  ///< [poles x curves]
   double chi_square = 0;     ///< sum of |model - h|^2 / variance
+  Eigen::MatrixXd loss;      ///< [poles x curves] in chi-square of a curve when it has no residue at the pole
   /// Loss in chi-square when a pole is left out and the other residues adapt: [poles].
   Eigen::VectorXd removal_loss;
 };

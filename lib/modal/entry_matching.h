@@ -1,0 +1,36 @@
+// Entries that may not fit together: one that comes late, or whose scale is off. README.md, "Entries that do
+// not fit together".
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "modal/fit_data.h"
+
+namespace stablecut::modal {
+
+/// What is wrong with one curve, or with one of two.
+struct EntryMismatch {
+  std::size_t curve = 0;               ///< index in the data
+  std::optional<std::size_t> other{};  ///< it may be this curve as well: nothing tells the two apart
+  double delay_s = 0;                  ///< by how much the response is late: H exp(i omega delay) has none
+  double factor = 1;                   ///< how many times too large it is
+  bool all = false;                    ///< all curves are, as far as can be told
+};
+
+/// The data without the mismatch; weights go with a factor.
+FitData mended(FitData data, const EntryMismatch& mismatch);
+
+/// The delay (s, of either sign, up to 6 ms) at which a function is largest. `highest` (rad/s) is that of the
+/// curves behind it.
+double best_delay(double highest, const std::function<double(double)>& value);
+
+/// Suggests what may be wrong, the likeliest first: delays from the phases of driving points (of which
+/// `is_driving_point` [curves] tells) and of mirrored entries on the lines, scales from the residues that
+/// each curve has by itself at common `poles` (rad/s).
+std::vector<EntryMismatch> suggested_mismatches(const FitData& data, const Eigen::VectorXcd& poles,
+                                                const std::vector<bool>& is_driving_point);
+
+}  // namespace stablecut::modal

@@ -1,0 +1,76 @@
+#include "modal/explained.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <utility>
+
+#include "base/units.h"
+#include "dynamics/noise.h"
+#include "modal/maximum_likelihood.h"
+#include "modal/tap_channels.h"
+#include "numerics/order_statistics.h"
+
+namespace stablecut::modal {
+namespace {
+
+constexpr double kLeastClear = 0.5;      // share of a band's lines that must stand clear of noise
+constexpr Eigen::Index kLeastBand = 20;  // lines
+constexpr double kShortOctave = 1.4142135623730951;
+constexpr double kLeastSize = 1e-300;  // of a value, in a quotient
+
+struct Band {
+  Eigen::Index first, count;
+};
+
+// The whole, and octaves; what is less than half of another one, or few lines, belongs to the last.
+std::vector<Band> bands_of(const FitData& data) {
+  std::vector<Band> bands{{0, data.lines()}};
+  for (Eigen::Index first = 0; first < data.lines();) {
+    Eigen::Index end = std::min(first + kLeastBand, data.lines());
+    while (end < data.lines() && data.s[end].imag() < 2 * data.s[first].imag()) ++end;
+    if (data.lines() - end < kLeastBand || data.highest() < kShortOctave * data.s[end].imag())
+      end = data.lines();
+    bands.push_back({first, end - first});
+    first = end;
+  }
+  return bands;
+}
+
+}  // namespace
+
+std::optional<Unexplained> most_unexplained(const FitData& data, const std::vector<dynamics::Mode>& modes,
+                                            double least) {
+  const dynamics::NoiseShapes floors = dynamics::floor_shapes(data.s.imag());
+  const std::vector<Band> bands = bands_of(data);
+  std::optional<Unexplained> most;
+  for (std::size_t c = 0; c < data.curves.size(); ++c) {
+    const Curve& curve = data.curves[c];
+    const Eigen::VectorXcd model = curve_of(modes, curve, data.s);
+    const Eigen::ArrayXd error =
+        (model - curve.h).cwiseAbs().array() / curve.h.cwiseAbs().array().max(kLeastSize);
+    Eigen::VectorXd noise;
+    for (const Band& band : bands) {
+      // A median above `least` over half of the lines has a quarter of them above it.
+      const auto high = (error.segment(band.first, band.count) > least).count();
+      if (static_cast<double>(high) < kLeastClear / 2 * static_cast<double>(band.count)) continue;
+      if (noise.size() == 0)
+        noise = dynamics::estimated_variance(data.s.imag(), curve.h, curve.h.cwiseAbs(), floors, true);
+      std::vector<double> left, steps;
+      for (Eigen::Index i = band.first; i < band.first + band.count; ++i)
+        if (noise[i] < std::norm(kNoiseShare * curve.h[i])) left.push_back(error[i]);
+      for (Eigen::Index i = band.first; i + 1 < band.first + band.count; ++i)
+        steps.push_back(std::abs(curve.h[i + 1] - curve.h[i]) / std::max(std::abs(curve.h[i]), kLeastSize));
+      if (static_cast<double>(left.size()) < kLeastClear * static_cast<double>(band.count) ||
+          numerics::median(std::move(steps)) > kNoiseShare)
+        continue;
+      const double share = numerics::median(std::move(left));
+      if (share < least || (most && share <= most->error)) continue;
+      most = {c, data.s[band.first].imag() / kTwoPi, data.s[band.first + band.count - 1].imag() / kTwoPi,
+              share};
+    }
+  }
+  return most;
+}
+
+}  // namespace stablecut::modal

@@ -1,0 +1,26 @@
+// Where modes explain too little of the curves for a table to be used: README.md, "Too little explained".
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "dynamics/modal_model.h"
+#include "modal/fit_data.h"
+
+namespace stablecut::modal {
+
+/// Lines of a curve that modes leave unexplained.
+struct Unexplained {
+  std::size_t curve = 0;        ///< index in the data
+  double lo_hz = 0, hi_hz = 0;  ///< first and last line
+  double error = 0;             ///< |model - h| / |h|, norms over these lines, beyond the noise
+};
+
+/// The curve and band (the whole, or an octave) of which modes leave most; nothing where they leave less than
+/// `least` everywhere. Only lines that stand 10 dB clear of the noise that the curve itself shows count, and
+/// only bands in which half of them do.
+std::optional<Unexplained> most_unexplained(const FitData& data, const std::vector<dynamics::Mode>& modes,
+                                            double least);
+
+}  // namespace stablecut::modal

@@ -1,0 +1,63 @@
+#include "modal/low_end.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+namespace stablecut::modal {
+namespace {
+
+// Drift rises towards 0 Hz by a factor of at least kDriftRise over what follows it, reaches up to a part of
+// the band at most (kDriftReach), and may be kDriftShare of |H| where it ends.
+constexpr double kDriftRise = 2, kDriftReach = 3, kDriftShare = 0.1;
+// A curve rises on the way to a resonance by kRising over the least before, and by so many deviations of the
+// noise; both are means over kMeanLines lines.
+constexpr double kRising = 1.3, kStandingOut = 4;
+constexpr Eigen::Index kMeanLines = 3;
+
+// Noise, or no driving point's.
+bool tells_nothing(const Channel& channel, const WindowSummary& window) {
+  const double positive = channel.swapped ? -window.imaginary : window.imaginary;
+  return window.noise > kNoiseShare || (channel.driving_point && positive > kPositiveShare);
+}
+
+}  // namespace
+
+double first_rise_hz(const Eigen::VectorXd& hz, const Channel& channel) {
+  const Eigen::VectorXcd& h = channel.entry->h;
+  const double sign = channel.swapped ? -1 : 1;
+  double least = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = kMeanLines; i + kMeanLines <= h.size(); ++i) {
+    least = std::min(least, h.segment(i - kMeanLines, kMeanLines).cwiseAbs().mean());
+    const double size = h.segment(i, kMeanLines).cwiseAbs().mean();
+    const double imaginary = sign * h.segment(i, kMeanLines).imag().mean();
+    const double deviation = std::sqrt(channel.variance.segment(i, kMeanLines).mean());
+    if (size < kRising * least || size < least + kStandingOut * deviation) continue;
+    if (!channel.driving_point || imaginary < kPositiveShare * size) return hz[i + kMeanLines - 1];
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+std::optional<double> ruined_up_to(const Eigen::VectorXd& hz, const Channel& channel, double risen_hz) {
+  const std::vector<WindowSummary>& windows = channel.windows;
+  std::size_t ruined = 0;
+  for (std::size_t i = 0; i < windows.size() && windows[i].hi_hz < risen_hz; ++i)
+    if (tells_nothing(channel, windows[i])) ruined = i + 1;
+  if (ruined == 0 || ruined == windows.size()) return std::nullopt;
+  if (windows[0].size < kDriftRise * windows[ruined].size) return std::nullopt;
+  // As an acceleration the drift is even: the most of the last octave, as drift and stiffness may cancel at
+  // its end. What is noise there weighs little by itself.
+  double square = 0;
+  for (std::size_t i = 0; i < ruined; ++i) {
+    if (2 * windows[i].lo_hz > windows[ruined - 1].hi_hz && windows[i].noise < kNoiseShare)
+      square = std::max(square, windows[i].size * windows[i].lo_hz * windows[i].hi_hz);
+  }
+  while (ruined + 1 < windows.size() &&
+         square > kDriftShare * windows[ruined].size * std::pow(windows[ruined].lo_hz, 2))
+    ++ruined;
+  const double up_to = windows[ruined - 1].hi_hz;
+  return kDriftReach * up_to <= hz[hz.size() - 1] ? std::optional(up_to) : std::nullopt;
+}
+
+}  // namespace stablecut::modal

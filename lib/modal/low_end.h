@@ -1,0 +1,21 @@
+// Up to where a measurement's low end tells nothing: README.md, "The low end".
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "modal/tap_channels.h"
+
+namespace stablecut::modal {
+
+/// The frequency (Hz) at which |H| of a channel first rises on the way to a resonance, clear of noise and
+/// taking energy, as no drift does; infinite where it never does. `hz` [lines].
+double first_rise_hz(const Eigen::VectorXd& hz, const Channel& channel);
+
+/// The frequency (Hz) up to which integration has ruined a channel: from 0 Hz on windows that tell nothing
+/// while |H| falls, below `risen_hz`, where some channel shows a mode, and on to where what falls like 1 /
+/// omega^2 is a small share of |H|. Nothing where the low end is sound, or more than the lower third of the
+/// band would go.
+std::optional<double> ruined_up_to(const Eigen::VectorXd& hz, const Channel& channel, double risen_hz);
+
+}  // namespace stablecut::modal

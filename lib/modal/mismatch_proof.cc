@@ -1,0 +1,211 @@
+#include "modal/mismatch_proof.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <optional>
+#include <utility>
+
+#include "modal/likelihood.h"
+#include "modal/maximum_likelihood.h"
+#include "modal/mode_search.h"
+#include "modal/vector_fitting.h"
+
+namespace stablecut::modal {
+namespace {
+
+constexpr std::size_t kMostMismatches = 4;  // of one group
+// Numbers that a mismatch has to be worth: it is one of many delays or scales of many curves.
+constexpr double kNumbersOfMismatch = 4;
+constexpr int kEstimates = 3;       // of a delay or factor, between refinements
+constexpr double kLeastOwn = 1e-6;  // share of its slope that modes cannot imitate
+constexpr double kNoWorse = 2;      // chi-square of linear least squares that may be left of mended curves
+constexpr Effort kBetween{60, 0.01};
+
+// Schwarz' criterion [Schwarz1978].
+double criterion(const GroupFit& fit, double inflation) {
+  return 2 * fit.refined.chi_square / inflation +
+         static_cast<double>(fit.modes().size()) * fit.parameters_per_mode() * std::log(fit.data.values());
+}
+
+// The mismatch that is left of curves that modes explain, of the logarithm of a factor or of a delay: one
+// step of Gauss and Newton for it and the modes' parameters together.
+double step_of(const GroupFit& fit, const EntryMismatch& mismatch) {
+  FitData changed = fit.data;
+  double product = 0, square = 0;
+  for (std::size_t c = 0; c < changed.curves.size(); ++c) {
+    Curve& curve = changed.curves[c];
+    const Eigen::VectorXcd model = curve_of(fit.modes(), curve, changed.s);
+    Eigen::VectorXcd slope = Eigen::VectorXcd::Zero(curve.h.size());  // of model - h
+    if (mismatch.all || c == mismatch.curve)
+      slope = mismatch.factor == 1 ? Eigen::VectorXcd(-changed.s.cwiseProduct(curve.h)) : curve.h;
+    product += (slope.conjugate().cwiseProduct(model - curve.h)).real().dot(curve.weight);
+    square += slope.cwiseAbs2().dot(curve.weight);
+    curve.h = model - slope;
+    curve.shared.resize(0);
+  }
+  const ModeParameters parameters(fit.modes(), changed.dofs, fit.model);
+  const Eigen::VectorXd x = parameters.pack(fit.modes());
+  const std::vector<bool> outside = out_of_band(changed, fit.modes());
+  // The gradient of curves that are off by the slope is the product of both.
+  const NormalEquations of_slope = Likelihood(changed, parameters, outside).evaluate(x, true);
+  const Eigen::VectorXd along = inverse_normal_matrix(of_slope) * of_slope.gradient;
+  FitData measured = fit.data;
+  for (Curve& curve : measured.curves) curve.shared.resize(0);
+  const NormalEquations of_error = Likelihood(measured, parameters, outside).evaluate(x, true);
+  const double left = square - along.dot(of_slope.gradient);
+  return left > kLeastOwn * square ? -(product - along.dot(of_error.gradient)) / left : 0;
+}
+
+EntryMismatch inverse_of(EntryMismatch mismatch) {
+  mismatch.delay_s = -mismatch.delay_s;
+  mismatch.factor = 1 / mismatch.factor;
+  return mismatch;
+}
+
+// A fit of mended curves.
+struct Mended {
+  EntryMismatch mismatch;
+  GroupFit fit;
+  double gain = 0;  // in Schwarz' criterion
+};
+
+// Whether the curves have no free scales against each other.
+bool in_one_part(const FitData& data) {
+  const std::vector<std::size_t> parts = data.vector_parts();
+  return std::all_of(parts.begin(), parts.end(), [&](std::size_t part) { return part == parts[0]; });
+}
+
+class Proof {
+ public:
+  Proof(const GroupFit& fit, const CurveVariances& given, const SelectionOptions& options)
+      : fit_(fit), given_(given), options_(options) {}
+
+  // The curves of `now` mended, if modes explain them better than `now` explains them as they are: both by
+  // the noise that the mended curves show.
+  std::optional<Mended> of(const GroupFit& now, EntryMismatch mismatch) const {
+    if (mismatch.factor == 1 && is_worse(now, mismatch)) return std::nullopt;
+    std::optional<GroupFit> after = from_the_others(now, mismatch);
+    if (!after) after = searched(mended(now.data, mismatch), given_);
+    estimate(*after, mismatch);
+    GroupFit before = now;
+    before.data = mended(after->data, inverse_of(mismatch));
+    before.refined = before.refine(now.modes(), kBetween);
+    const double inflation = after->inflation_of(after->refined);
+    const double gain = criterion(before, inflation) - criterion(*after, inflation);
+    if (!(gain > kNumbersOfMismatch * std::log(now.data.values()))) return std::nullopt;
+    // Against a model error a chi-square tells little: fewer modes alone prove nothing.
+    if (after->regime == Regime::kModelError && after->refined.chi_square > before.refined.chi_square)
+      return std::nullopt;
+    return Mended{mismatch, std::move(*after), gain};
+  }
+
+  // With the modes that a search finds in the mended curves the mismatch is surer still.
+  Mended completed(const GroupFit& now, const Mended& mended_now) const {
+    Mended result = mended_now;
+    result.fit = searched(mended(now.data, result.mismatch), given_);
+    GroupFit improved = result.fit;
+    estimate(improved, result.mismatch);
+    return result;
+  }
+
+ private:
+  // Poles that imitate a delay are no worse for curves without it: where they are, there was none. Linear
+  // least squares tell at once, and spare a search.
+  static bool is_worse(const GroupFit& now, const EntryMismatch& mismatch) {
+    FitData without = mended(now.data, mismatch), with = now.data;
+    if (!mismatch.all) {
+      with.curves = {with.curves[mismatch.curve]};
+      without.curves = {without.curves[mismatch.curve]};
+    }
+    return linear_residues(without, now.start_poles).chi_square >
+           kNoWorse * linear_residues(with, now.start_poles).chi_square;
+  }
+
+  // Improves the mismatch, which has been taken off the curves of `fit`.
+  void estimate(GroupFit& fit, EntryMismatch& mismatch) const {
+    for (int i = 0; i < kEstimates; ++i) {
+      const double step = step_of(fit, mismatch);
+      EntryMismatch left = mismatch;
+      left.delay_s = mismatch.factor == 1 ? step : 0;
+      left.factor = mismatch.factor == 1 ? 1 : std::exp(step);
+      fit.data = mended(std::move(fit.data), left);
+      weigh(fit);
+      mismatch.delay_s += left.delay_s;
+      mismatch.factor *= left.factor;
+    }
+  }
+
+  // The modes of the other curves, where these tell all of the curve, and what they say of it: the delay or
+  // factor.
+  std::optional<GroupFit> from_the_others(const GroupFit& now, EntryMismatch& mismatch) const {
+    if (mismatch.all) return std::nullopt;
+    const Curve& curve = now.data.curves[mismatch.curve];
+    FitData others = now.data;
+    others.curves.erase(others.curves.begin() + static_cast<std::ptrdiff_t>(mismatch.curve));
+    const auto shown = [&](auto&& by) { return std::any_of(others.curves.begin(), others.curves.end(), by); };
+    if (!shown([&](const Curve& c) { return c.response == curve.response; }) ||
+        !shown([&](const Curve& c) { return c.reference == curve.reference; }) || !in_one_part(others))
+      return std::nullopt;
+    CurveVariances variance = given_;
+    if (!variance.empty()) variance.erase(variance.begin() + static_cast<std::ptrdiff_t>(mismatch.curve));
+    GroupFit fit = searched(std::move(others), std::move(variance));
+    const Eigen::ArrayXcd told = curve_of(fit.modes(), curve, now.data.s);
+    const Eigen::ArrayXcd product = told.conjugate() * curve.h.array() * curve.weight.array();
+    if (mismatch.factor == 1) {
+      mismatch.delay_s = best_delay(now.data.highest(), [&](double delay) {
+        return (product * (now.data.s.array() * delay).exp()).real().sum();
+      });
+    } else {
+      const double factor = product.real().sum() / (told.abs2() * curve.weight.array()).sum();
+      if (!(factor > 0)) return std::nullopt;
+      mismatch.factor = factor;
+    }
+    fit.data = mended(now.data, mismatch);
+    weigh(fit);
+    return fit;
+  }
+
+  // By the given noise, or by what the modes leave.
+  void weigh(GroupFit& fit) const {
+    fit.shared.clear();
+    fit.variance = given_.empty() ? residual_as_noise(fit.data, fit.modes(), 1, true).variance : given_;
+    for (std::size_t c = 0; c < given_.size(); ++c)
+      fit.variance[c] *= fit.data.curves[c].h.squaredNorm() / fit_.data.curves[c].h.squaredNorm();
+    fit.weigh(fit.regime);
+    fit.refined = fit.refine(fit.modes(), kBetween);
+  }
+
+  GroupFit searched(FitData data, CurveVariances variance) const {
+    GroupFit found = search_modes(std::move(data), std::move(variance), options_);
+    return found.model == fit_.model ? found : in_model(std::move(found), fit_.model, options_);
+  }
+
+  const GroupFit& fit_;
+  const CurveVariances& given_;
+  const SelectionOptions& options_;
+};
+
+}  // namespace
+
+std::vector<EntryMismatch> proved_mismatches(const GroupFit& fit, const CurveVariances& given,
+                                             const std::vector<bool>& is_driving_point,
+                                             const SelectionOptions& options) {
+  std::vector<EntryMismatch> proved;
+  const Proof proof(fit, given, options);
+  GroupFit now = fit;
+  while (proved.size() < kMostMismatches) {
+    std::optional<Mended> best;
+    for (const EntryMismatch& suggested : suggested_mismatches(now.data, now.start_poles, is_driving_point)) {
+      std::optional<Mended> better = proof.of(now, suggested);
+      if (better && (!best || better->gain > best->gain)) best = std::move(better);
+    }
+    if (!best) break;
+    best = proof.completed(now, *best);
+    proved.push_back(best->mismatch);
+    now = std::move(best->fit);
+  }
+  return proved;
+}
+
+}  // namespace stablecut::modal
