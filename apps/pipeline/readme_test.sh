@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Runs the README's examples: the code blocks that follow a line <!-- tested -->, in a folder with testdata and scripts.
+# Runs the README's examples: the code blocks that follow a line <!-- tested -->, in a folder with testdata and scripts; and those of
+# stablecut(7), which has to name every kind of document with the fields that it must have, every tool and every script.
 . "$SOURCE/apps/testing.sh"
 ln -s "$SOURCE/testdata" "$SOURCE/scripts" .
 awk '/^<!-- tested -->$/ {wanted = 1; next} /^```/ {if (inside) inside = 0; else if (wanted) {inside = 1; wanted = 0}; next}
@@ -7,3 +8,20 @@ awk '/^<!-- tested -->$/ {wanted = 1; next} /^```/ {if (inside) inside = 0; else
 check "the README has examples" test -s examples.sh
 bash -euo pipefail examples.sh >log 2>&1; status=$?
 check "the README examples run: $(tail -n 2 log)" test $status -eq 0
+
+page=$SOURCE/apps/stablecut.7
+awk '/^\.SH/ {examples = /EXAMPLES/} /^\.fi/ {inside = 0} inside && examples; /^\.nf/ {inside = 1}' "$page" | sed 's/\\-/-/g' >page.sh
+check "stablecut(7) has examples" test "$(wc -l <page.sh)" -ge 8
+PATH=$PWD/scripts:$PATH bash -euo pipefail page.sh >log 2>&1; status=$?
+check "its examples run: $(tail -n 2 log)" test $status -eq 0
+sed 's/\\-/-/g; s/\\f[BIPR]//g' "$page" >page.txt
+for schema in "$SOURCE"/schemas/*.schema.json; do
+  kind=$(basename "$schema" .schema.json)
+  entry=$(awk -v kind="$kind" '$0 == ".I " kind && before == ".TP" {inside = 1} /^\.(TP|PP|SH)/ {inside = 0} inside; {before = $0}' page.txt)
+  check "stablecut(7): $kind: what writes or reads it" grep -qE 'Yours|[Ww]ritten by' <<<"$entry"
+  for field in $(jq -r '.required - ["format"] | .[]' "$schema"); do
+    check "stablecut(7): $kind: $field" grep -qw -- "$field" <<<"$entry"
+  done
+done
+for name in $(cd "$SOURCE/apps" && ls */*.1); do check "stablecut(7): $name" grep -q "^\.BR $(basename "$name" .1) (1)" page.txt; done
+for name in $(cd "$SOURCE/scripts" && echo plot-*) stablecut-report import-urdf; do check "stablecut(7): $name" grep -q -- "$name" page.txt; done

@@ -100,10 +100,10 @@ def _help(example, synopsis, text, options):
     lines = ["Example:", *(f"  {line}" for line in example.strip().splitlines()), "",
              *textwrap.wrap(f"Usage: {PROGRAM} [options] {synopsis}", 80), ""]
     for paragraph in text.strip().split("\n\n"):
-        lines += [*textwrap.wrap(" ".join(paragraph.split()), 80), ""]
+        lines += [*textwrap.wrap(" ".join(paragraph.split()), 80, break_on_hyphens=False), ""]
     for option in options:
         head = f"  {option.short + ', ' if option.short else ''}{option.name}{' ' + option.form if option.form else ''}"
-        wrapped = textwrap.wrap(option.help, 56)
+        wrapped = textwrap.wrap(option.help, 56, break_on_hyphens=False)
         if len(head) > 22:
             lines.append(head)
             head = ""
