@@ -101,6 +101,9 @@ refused 65 '^plot-lobes: lobes.json: /per_mode: expected a chart' "$scripts/plot
 cp per-mode.json "a'; system \"touch pwned\" #.json"
 "$scripts/plot-lobes" lobes.json per-mode.json "a'; system \"touch pwned\" #.json" -o several.svg
 check "several limits by their names" test "$(grep -oE '>(lobes|per-mode|a\?\? system \?touch pwned\? \?)<' several.svg | sort -u | wc -l)" -eq 3 -a ! -e pwned
+mkdir -p a b && cp lobes.json a/lobes.json && cp per-mode.json b/lobes.json
+"$scripts/plot-lobes" a/lobes.json b/lobes.json -o same.svg
+check "two of one name by their folders" test "$(grep -cE '<text>[ab]/lobes<' same.svg)" -eq 2
 refused 64 '^plot-lobes: --per-mode: expected one input' "$scripts/plot-lobes" --per-mode lobes.json per-mode.json -o x.svg
 
 # The limit's lobes, modes and frequencies; numbers of what to run and of the lowest limit, which may lie between the speeds.

@@ -75,6 +75,12 @@ class Places(unittest.TestCase):
                 for other in boxes[i + 1:]:
                     self.assertTrue(left >= other[1] or other[0] >= right or bottom >= other[3] or other[2] >= top)
 
+    def test_what_lies_on_the_edge_is_inside(self):
+        places = place.Places(0.1 + 0.2, 1)
+        self.assertTrue(places.inside(0.3, 1, 0, 0))
+        self.assertTrue(place.Places(0.3, 1).inside(0.1 + 0.2, 0, 0, 0))
+        self.assertFalse(places.inside(0.31, 1, 0, 0))
+
     def test_a_line_is_taken_along_its_way_but_not_over_gaps(self):
         places = place.Places(100, 100)
         places.take_line([(0, 50), (50, 50), None, (80, 50)])

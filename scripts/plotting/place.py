@@ -22,7 +22,10 @@ class Places:
                           thickness, thickness)
 
     def inside(self, x, y, width, height):
-        return width / 2 <= x <= self.width - width / 2 and height / 2 <= y <= self.height - height / 2
+        # What lies on the edge is inside, whatever rounding made of it.
+        edge = 1e-6
+        return (-edge <= x - width / 2 and x + width / 2 <= self.width + edge and
+                -edge <= y - height / 2 and y + height / 2 <= self.height + edge)
 
     def free(self, x, y, width, height):
         return self.inside(x, y, width, height) and not any(
