@@ -72,9 +72,10 @@ class Panel:
         paint = f" lc {colour if colour == 'palette' else f'rgb {chr(39)}{colour}{chr(39)}'}" if colour else ""
         self.elements.append((f"{data} using {using}{f' axes {axes}' if axes else ''} with {how}{paint}", f"with {how}{paint}", title))
 
-    def explain(self, how, colour, title):
+    def explain(self, how, colour, title, letter):
         """An entry of the key for what is drawn otherwise."""
-        self.elements.append((None, f"with {look.scaled(how, self.figure.form) if not self.figure.text else how} lc rgb '{colour}'", title))
+        how = f"points pt '{letter}'" if self.figure.text else f"{look.scaled(how, self.figure.form)} lc rgb '{colour}'"
+        self.elements.append((None, f"with {how}", title))
 
     def label(self, text, at, colour=look.INK, align="center", px=look.FONT_PX):
         """A text at a place in gnuplot's words."""
@@ -103,7 +104,7 @@ class Panel:
         left, right, bottom, _ = self.box
         width, height = self.figure.width, self.figure.height
         places = {"x": f"graph 0.5, screen {(bottom - 49) / height:.4f} center", "y": f"screen {(left - self.label_gap) / width:.4f}, graph 0.5 center rotate",
-                  "y2": f"screen {(right + 74) / width:.4f}, graph 0.5 center rotate", "cb": f"screen {(right + 92) / width:.4f}, graph 0.5 center rotate"}
+                  "y2": f"screen {(right + 74) / width:.4f}, graph 0.5 center rotate", "cb": f"screen {(right + 100) / width:.4f}, graph 0.5 center rotate"}
         return [f"set label '{self.figure.said(label)}' at {places[name]} noenhanced{self.figure.font(self._fitting(name, label))}"
                 for name, label in self.labels.items()]
 

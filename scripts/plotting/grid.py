@@ -2,7 +2,9 @@
 
 
 def edges(values, ends):
-    """Where the cell of each value begins and ends, cut off at the axis's ends; (None, None) outside of it."""
+    """Where the cell of each value begins and ends, cut off at the axis's ends; (None, None) outside of it. A single one fills it."""
+    if len(values) == 1:
+        return [tuple(ends)]
     middles = [(before + after) / 2 for before, after in zip(values, values[1:])]
     found = []
     for low, high in zip([values[0], *middles], [*middles, values[-1]]):
@@ -18,8 +20,8 @@ def raster(values, ends, most=400):
         return [], []
     low, high = found[0][0], found[-1][1]
     # Half a cell each where that is exact.
-    halves, half = 2 * (len(values) - 1), (values[-1] - values[0]) / (len(values) - 1) / 2
-    exact = halves <= most and (low, high) == (values[0], values[-1]) and all(
+    halves, half = 2 * (len(values) - 1), (values[-1] - values[0]) / max(1, len(values) - 1) / 2
+    exact = 0 < halves <= most and (low, high) == (values[0], values[-1]) and all(
         abs(value - values[0] - 2 * k * half) < 1e-6 * half for k, value in enumerate(values))
     count = halves if exact else most
     centres = [low + (high - low) * (k + 0.5) / count for k in range(count)]
@@ -31,13 +33,10 @@ def raster(values, ends, most=400):
     return centres, indices
 
 
-def cells(panel, xs, ys, grid, low, high, words=None):
-    """A grid [y][x], null where nothing is. low and high: the ends of the digits 0 to 9 in a text picture, words what they mean."""
+def cells(panel, xs, ys, grid, low, high, words):
+    """A grid [y][x], null where nothing is. low and high: the ends of the digits 0 to 9 in a text picture, words what they mean (None: nothing)."""
     if panel.figure.text:
-        _digits(panel, xs, ys, grid, low, high, words or "{:.3g}")
-        return
-    if len(xs) < 2 or len(ys) < 2:
-        panel.add([(x, y, grid[i][j]) for i, y in enumerate(ys) for j, x in enumerate(xs)], "points pt 5 ps 1.4", "palette", using="1:2:3")
+        _digits(panel, xs, ys, grid, low, high, words)
         return
     if panel.figure.form == "png":
         # An image whose cells end at the axes: gnuplot does not cut one off right, and single cells would show seams.
@@ -60,7 +59,7 @@ def _digits(panel, xs, ys, grid, low, high, words):
                 step = 0 if high <= low else min(9, max(0, int(10 * (value - low) / (high - low))))
                 found.setdefault(step, []).append((x, y))
     for step, places in sorted(found.items()):
-        title = words.format(low + (high - low) * (step + 0.5) / 10) if step in (min(found), max(found)) else None
+        title = words.format(low + (high - low) * (step + 0.5) / 10) if words and step in (min(found), max(found)) else None
         panel.add(places, "points", None, title, letter=str(step))
 
 
@@ -76,11 +75,11 @@ def fitted(box, x_range, y_range):
     """The largest part of a box whose axes have one scale; the box for a line."""
     left, right, bottom, top = box
     across, up = (ends[1] - ends[0] for ends in (x_range, y_range))
-    if across <= 0 or up <= 0 or right - left < 60 or top - bottom < 60:
+    if across <= 0 or up <= 0 or right - left < 120 or top - bottom < 120:
         return box
     scale = min((right - left) / across, (top - bottom) / up)
     # A strip stays wide enough to be seen; then its axes have two scales.
-    width, height = max(across * scale, 60), max(up * scale, 60)
+    width, height = max(across * scale, 120), max(up * scale, 120)
     return left + (right - left - width) / 2, left + (right - left + width) / 2, top - height, top
 
 
