@@ -1,5 +1,6 @@
 #include "measurement.h"
 
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -82,12 +83,19 @@ void MeasurementOptions::finish(Measurement& measurement) const {
     for (dynamics::FrequencyResponseEntry& entry : measurement.frf.entries) {
       if (!correction.entry.empty() && correction.entry != entry.response + entry.reference) continue;
       any = true;
-      dynamics::correct(measurement.frf.frequency_hz, 1e-3 * correction.delay_ms, correction.factor, entry);
+      // Under an exponential window a delay is one of exp((i omega + decay) delay).
+      const double delay_s = 1e-3 * correction.delay_ms;
+      dynamics::correct(measurement.frf.frequency_hz, delay_s,
+                        correction.factor * std::exp(measurement.frf.window_decay_per_s * delay_s), entry);
     }
     if (!any)
       throw cli::WrongUsage(correction.option + ": " + correction.text + ": expected an entry of " +
                             measurement.name);
   }
+  if (!band_) return;
+  measurement.frf = dynamics::within_band(measurement.frf, band_->from, band_->to);
+  if (measurement.frf.frequency_hz.size() == 0)
+    throw document::DataError(measurement.name, "", "", "no lines in the band: expected some in --band");
 }
 
 // Options that the input's form has no use for are a mistake.

@@ -37,7 +37,8 @@ class MeasurementOptions {
   std::vector<CLI::Option*> declared_for_responses() const { return for_responses_; }
   std::optional<dynamics::Quantity> quantity() const;
   const std::optional<document::FrfUnit>& unit() const { return choice_.unit; }
-  /// Leaves the lines in --band. Throws DataError where there are none.
+  /// --delay, --scale and --band. Throws WrongUsage for an entry that is not there, DataError where no line
+  /// is left.
   void finish(Measurement& measurement) const;
   /// Whether --band says which lines count.
   bool band_is_chosen() const { return band_.has_value(); }

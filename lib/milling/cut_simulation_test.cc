@@ -82,7 +82,8 @@ TEST_CASE("simulated deviations grow as the spectral radius says", "[campaign]")
   CHECK(agree >= 0.99 * far);
 }
 
-TEST_CASE("a force that changes the velocity at once does so for the flanks of all teeth in cut") {
+TEST_CASE("a force that changes the velocity at once does so for the flanks of all teeth in cut",
+          "[campaign]") {
   // Modes of no structure with mass, process damping, and unequal pitches of which several are in cut.
   const TipStructure structure = tip_structure(fixtures::coupled_modes(3, 8));
   for (const auto& [up, immersion, speed] : {std::tuple{true, 0.9, 90.0}, std::tuple{false, 1.0, 140.0}}) {

@@ -42,7 +42,7 @@ Verdicts by_formula(const std::vector<SampledCut>& samples) {
 
 }  // namespace
 
-TEST_CASE("the posterior of Kt and Kr is that of a grid over both") {
+TEST_CASE("the posterior of Kt and Kr is that of a grid over both", "[campaign]") {
   const Cutter cutter = fixtures::benchmark_cutter(true, 0.4, 3);
   const SampledCut mean{tip_structure(fixtures::oscillator({"x", "y"})), cutter};
   // Around the limits at some speeds, as one would try; the deeper cut of a pair was stable at one.

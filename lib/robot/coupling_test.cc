@@ -134,7 +134,7 @@ TEST_CASE("limits that only the coupled axis has bound the optimum") {
   CHECK(limit_margin_rad(bounded, search.best.angles) >= task.limit_margin_rad - 1e-9);
 }
 
-TEST_CASE("a robot that stands elsewhere answers a question that is moved with it alike") {
+TEST_CASE("a robot that stands elsewhere answers a question that is moved with it alike", "[campaign]") {
   std::mt19937_64 generator(9);
   const Robot robot = with_tool_offset(kr360(), 0.1);
   PoseTask task = tool_down(robot, 1.2, "deflection", 2);

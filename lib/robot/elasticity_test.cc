@@ -185,7 +185,7 @@ TEST_CASE("two poses are off each by themselves: better by chance of the differe
   CHECK(probability_better(a, b, task, errors) == Approx(static_cast<double>(better) / kDraws).margin(0.015));
 }
 
-TEST_CASE("what turns freely with a base and bearings that yield") {
+TEST_CASE("what turns freely with a base and bearings that yield", "[campaign]") {
   const Robot robot = kr360();
   int flipped = 0;
   struct Case {

@@ -322,7 +322,8 @@ TEST_CASE("the robust loss solves Huber's equations") {
   for (int j = 0; j < 5; ++j) CHECK(std::abs(sum[j]) < 1e-9 * size[j]);
 }
 
-TEST_CASE("stated deviations are believed when they are right, and not when they are two thirds") {
+TEST_CASE("stated deviations are believed when they are right, and not when they are two thirds",
+          "[campaign]") {
   const Robot robot = kr360();
   const auto exact = samples_of(robot, {random_poses(robot, 12, 13), kThreeLoads});
   std::mt19937_64 generator(97);

@@ -131,7 +131,7 @@ TEST_CASE("a path in one motion is the same on any number of threads") {
     CHECK(one.parts[0].poses[i].angles == three.parts[0].poses[i].angles);
 }
 
-TEST_CASE("points so near that no joint turns by a degree between them") {
+TEST_CASE("points so near that no joint turns by a degree between them", "[campaign]") {
   // 0.4 mm apart at 50 mm/s: 8 ms, in which the slowest joint turns by 0.7 degrees.
   const PathCell cell = cell_for(path_cells()[0], 3);
   PathTask dense = path_task(cell, line_path(cell, 2501, 0.05), "deflection");
