@@ -51,6 +51,16 @@ std::optional<document::UniversalForm> FrfOutput::universal_form() const {
   return std::nullopt;
 }
 
+bool leave_out_vague_coherences(dynamics::FrequencyResponse& frf) {
+  bool some = false;
+  for (auto& entry : frf.entries) {
+    if (entry.coherence.size() == 0 || entry.averages) continue;
+    entry.coherence.resize(0);
+    some = true;
+  }
+  return some;
+}
+
 void refuse(const std::vector<CLI::Option*>& options, const std::string& expected) {
   for (const CLI::Option* option : options)
     cli::refuse_if(option->count() > 0, option->get_name() + ": expected " + expected);

@@ -37,6 +37,10 @@ class FrfOutput {
   std::vector<CLI::Option*> noise_options_;
 };
 
+/// A frf document must say how many averages are behind a coherence: leaves out those that do not. Whether
+/// there were some.
+bool leave_out_vague_coherences(dynamics::FrequencyResponse& frf);
+
 /// Throws WrongUsage for those of the options that were given.
 void refuse(const std::vector<CLI::Option*>& options, const std::string& expected);
 

@@ -24,6 +24,7 @@
 #include "modal/tap_checks.h"
 #include "remedies.h"
 #include "report.h"
+#include "table_options.h"
 #include "tap_options.h"
 #include "words.h"
 
@@ -58,16 +59,21 @@ class FitModes : public cli::Tool {
       fit_options_.push_back(app.get_option(name));
     cli::begin_group(app, "Frequency responses instead of a fit");
     frf_output_.declare(app);
+    cli::begin_group(app, "Modal tables instead of a fit");
+    tables_.declare(app);
+    for (const CLI::Option* option : tables_.declared()) not_in_provenance(option);
   }
 
   std::string option_for(Remedy remedy) const override { return option_of(remedy); }
 
   void run() override {
-    if (frf_output_.synthesizes()) {
-      refuse(measurement_.declared(), "without --synthesize");
-      refuse(taps_.declared(), "without --synthesize");
-      refuse(fit_options_, "without --synthesize");
+    if (frf_output_.synthesizes() || tables_.given()) {
+      const std::string expected = frf_output_.synthesizes() ? "without --synthesize" : "with a measurement";
+      refuse(measurement_.declared(), expected);
+      refuse(taps_.declared(), expected);
+      refuse(fit_options_, expected);
     }
+    if (tables_.given()) return write_about_tables();
     if (taps_.given())
       refuse(measurement_.declared_for_responses(), "without --taps");
     else
@@ -77,7 +83,10 @@ class FitModes : public cli::Tool {
       synthesize();
     } else if (frf_output_.converts()) {
       refuse(fit_options_, "without --convert");
-      write_frf(with_known_averages(read_measurement()));
+      dynamics::FrequencyResponse frf = read_measurement();
+      if (leave_out_vague_coherences(frf))
+        warn(input_name_ + ": coherences are left out: --averages N says how many are behind them");
+      write_frf(frf);
     } else {
       fit();
     }
@@ -151,13 +160,7 @@ class FitModes : public cli::Tool {
   // The measurement as a receptance, without a line at 0 Hz.
   dynamics::FrequencyResponse read_receptance() {
     dynamics::FrequencyResponse frf = read_measurement();
-    for (std::size_t e = 0; e < frf.entries.size(); ++e) {
-      if (frf.find(frf.entries[e].response, frf.entries[e].reference) != &frf.entries[e]) {
-        throw document::DataError(input_name_, "/h/" + std::to_string(e),
-                                  frf.entries[e].response + frf.entries[e].reference,
-                                  "measured at another position too: expected each pair of directions once");
-      }
-    }
+    refuse_second_places(frf, input_name_);
     // Nothing is learnt at 0 Hz, and accelerance and mobility cannot be converted there.
     if (frf.frequency_hz[0] == 0) {
       frf =
@@ -189,24 +192,20 @@ class FitModes : public cli::Tool {
     return std::move(measured.frf);
   }
 
+  void write_about_tables() {
+    tables_.check();
+    cli::refuse_if(frf_output_.synthesizes() || frf_output_.converts(),
+                   "--compare, --track: expected without --synthesize and --convert");
+    const document::Input table = read_main_input(cli::InputForm::kJson);
+    write_document(main_output(), tables_.result(table, read_input(tables_.other(), cli::InputForm::kJson)));
+  }
+
   // ---- frequency responses instead of a fit ----
 
   void synthesize() {
     const document::Input input = read_main_input(cli::InputForm::kJson);
     input_name_ = input.source.name;
     write_frf(frf_output_.synthesized(document::modal_table_from_json(input.document, input.source)));
-  }
-
-  // An frf document must say how many averages are behind a coherence.
-  dynamics::FrequencyResponse with_known_averages(dynamics::FrequencyResponse frf) const {
-    bool lost = false;
-    for (auto& entry : frf.entries) {
-      if (entry.coherence.size() == 0 || entry.averages) continue;
-      entry.coherence.resize(0);
-      lost = true;
-    }
-    if (lost) warn(input_name_ + ": coherences are left out: --averages N says how many are behind them");
-    return frf;
   }
 
   void write_frf(const dynamics::FrequencyResponse& frf) {
@@ -235,6 +234,7 @@ class FitModes : public cli::Tool {
   TapOptions taps_;
   FitChoice choice_;
   FrfOutput frf_output_;
+  TableOptions tables_;
   std::string fitted_path_, stabilization_path_, input_name_;
   bool zeros_are_dead_ = true;
   std::vector<CLI::Option*> fit_options_;

@@ -143,4 +143,13 @@ Measurement MeasurementOptions::read(const std::string& main_input, const Reader
   return result;
 }
 
+void refuse_second_places(const dynamics::FrequencyResponse& frf, const std::string& name) {
+  for (std::size_t e = 0; e < frf.entries.size(); ++e) {
+    const dynamics::FrequencyResponseEntry& entry = frf.entries[e];
+    if (frf.find(entry.response, entry.reference) == &entry) continue;
+    throw document::DataError(name, "/h/" + std::to_string(e), entry.response + entry.reference,
+                              "measured at another position too: expected each pair of directions once");
+  }
+}
+
 }  // namespace stablecut

@@ -62,4 +62,7 @@ class MeasurementOptions {
   std::vector<Correction> corrections_;
 };
 
+/// Throws DataError where a pair of directions was measured at several positions.
+void refuse_second_places(const dynamics::FrequencyResponse& frf, const std::string& name);
+
 }  // namespace stablecut

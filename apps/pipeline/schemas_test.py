@@ -107,6 +107,13 @@ with tempfile.TemporaryDirectory() as folder:
     assert hits["covariances"] and hits["window_decay_per_s"] == 5
     documents["frf of hits"] = hits
     documents["table of hits"] = run("fit-modes", stdin=json.dumps(hits))
+    one, other = pathlib.Path(folder) / "one.json", pathlib.Path(folder) / "other.json"
+    one.write_text(json.dumps(documents["table of hits"]))
+    documents["tracked table"] = run("fit-modes", "--track", str(one), str(one))
+    other.write_text(json.dumps(documents["tracked table"]))
+    documents["comparison"] = run("fit-modes", "--compare", str(other), str(one))
+    documents["lobes of tracked modes"] = run("sdm-lobes", "--cut", cut, *chart, "--per-mode", str(other))
+    assert documents["lobes of tracked modes"]["per_mode"][0]["mode_label"] == "m1"
 with tempfile.TemporaryDirectory() as folder:
     list_path, map_path = pathlib.Path(folder) / "poses.json", pathlib.Path(folder) / "map.json"
     list_path.write_text(json.dumps(poses))
@@ -155,7 +162,7 @@ documents["springs and discrepancy of the user"] = partial | {
     "springs": [{"name": "base.x", "compliance_m_per_n": 1e-8}, {"name": "A2.y", "compliance_rad_per_n_m": None}]}
 documents["stiffness where one load leaves joints unseen"] = run(
     "joint-stiffness", *robot, stdin=json.dumps(documents["load samples"]))
-required = {"cut": "teeth", "cut-force": "mean_force_n", "frf": "h", "modal-table": "modes", "lobes": "limit", "robot": "tool", "load-samples": "samples",
+required = {"cut": "teeth", "cut-force": "mean_force_n", "frf": "h", "modal-table": "modes", "mode-comparison": "pairs", "lobes": "limit", "robot": "tool", "load-samples": "samples",
             "joint-stiffness": "stiffness_n_m_per_rad", "pose-list": "poses", "measurement-plan": "samples", "pose": "index",
             "pose-map": "score", "pose-path": "points", "tool-path": "points", "assembly": "tool", "tool-joint": "x", "stabilization": "orders"}
 # A joint in one direction has its values at the root.

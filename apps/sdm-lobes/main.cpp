@@ -96,12 +96,12 @@ class SdmLobes : public cli::Tool {
     const milling::RunRequest asked = run_.request(cut_.cut());
     const document::Input table = read_main_input(cli::InputForm::kJson);
     const dynamics::ModalModel all_modes = document::modal_table_from_json(table.document, table.source);
+    document::LobesDocument lobes;
+    lobes.mode_labels = {modes_.find_labels(table)};
     const dynamics::ModalModel model = modes_.model(all_modes, table.source.name);
     std::vector<milling::TipStructure> structures = {structure_in(model, table.source)};
     const milling::Cutter& cutter = cut_.cut().cutter;
     const milling::RunRequest request = surface_.completed(asked, model, reader);
-
-    document::LobesDocument lobes;
     lobes.scheme = {method_ == "sdm" ? milling::StabilityMethod::kSemiDiscretization
                                      : milling::StabilityMethod::kSpectral,
                     intervals_.value_or(milling::StabilityScheme{}.intervals)};
@@ -168,6 +168,7 @@ class SdmLobes : public cli::Tool {
       models.push_back(document::modal_table_from_json(table.document, table.source));
       structures.push_back(structure_in(models.back(), table.source));
       lobes.tables.push_back(table.source.name);
+      lobes.mode_labels.push_back(modes_.find_labels(table));
     }
   }
 

@@ -1,10 +1,13 @@
 #include "options.h"
 
 #include <algorithm>
+#include <cctype>
+#include <string_view>
 
 #include "base/units.h"
 #include "cli/exit_status.h"
 #include "document/kinds/modal_table_json.h"
+#include "document/kinds/mode_labels.h"
 #include "document/text/data_error.h"
 
 namespace stablecut {
@@ -93,11 +96,30 @@ void ModeOptions::declare(CLI::App& app) {
          "--modes",
          [this](const std::string& text) {
            listed_ = parse_index_list(text);
-           if (!listed_)
-             throw cli::WrongUsage("--modes: " + text + ": expected 1-based indices such as 1-7,14-15");
+           if (listed_) return;
+           for (const std::string_view label : split(text, ',')) labels_.emplace_back(label);
+           // A label that begins with a digit would be an index that was mistyped.
+           if (std::any_of(labels_.begin(), labels_.end(), [](const std::string& label) {
+                 return label.empty() || !std::isalpha(static_cast<unsigned char>(label[0]));
+               }))
+             throw cli::WrongUsage("--modes: " + text +
+                                   ": expected 1-based indices such as 1-7,14-15, or labels such as m1,m3");
          },
-         "Use only these modes of the table, such as 1-7,14-15")
+         "Use only these modes of the table, by numbers such as 1-7,14-15 or by labels such as m1,m3")
       ->type_name("LIST");
+}
+
+std::vector<std::string> ModeOptions::find_labels(const document::Input& table) {
+  const std::vector<std::string> labels = document::mode_labels(table.document);
+  if (labels_.empty()) return labels;
+  listed_.emplace();
+  for (const std::string& label : labels_) {
+    const auto found = std::find(labels.begin(), labels.end(), label);
+    cli::refuse_if(found == labels.end(),
+                   "--modes: " + label + ": expected labels of modes of " + table.source.name);
+    listed_->push_back(static_cast<int>(found - labels.begin()) + 1);
+  }
+  return labels;
 }
 
 std::vector<std::size_t> ModeOptions::chosen(const dynamics::ModalModel& table,

@@ -52,7 +52,10 @@ class CutOptions {
 class ModeOptions {
  public:
   void declare(CLI::App& app);
-  bool given() const { return listed_.has_value(); }
+  bool given() const { return listed_ || !labels_.empty(); }
+  /// Labels of the table's modes, empty where they have none; finds those that were chosen by them. Throws
+  /// WrongUsage for one that the table does not have.
+  std::vector<std::string> find_labels(const document::Input& table);
   /// 1-based; empty: all.
   std::vector<int> listed() const { return listed_.value_or(std::vector<int>{}); }
   /// Indices in the table. Throws WrongUsage for one that it does not have.
@@ -64,6 +67,7 @@ class ModeOptions {
 
  private:
   std::optional<std::vector<int>> listed_;
+  std::vector<std::string> labels_;
 };
 
 /// A chart's speeds and depths in the units of the numeric rooms.

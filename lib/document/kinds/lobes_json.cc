@@ -18,8 +18,26 @@ const std::map<milling::Instability, const char*> kNames = {{milling::Instabilit
                                                             {milling::Instability::kFlip, "flip"},
                                                             {milling::Instability::kFold, "fold"}};
 
+// How tables and their modes are named beside crossings: every row with the same fields.
+struct Naming {
+  bool with_table, with_labels;
+  const std::vector<std::vector<std::string>>& mode_labels;  // [tables][modes]
+
+  explicit Naming(const LobesDocument& lobes)
+      : with_table(!lobes.tables.empty()), with_labels(false), mode_labels(lobes.mode_labels) {
+    for (const auto& labels : mode_labels) {
+      for (const std::string& own : labels) with_labels = with_labels || !own.empty();
+    }
+  }
+  // Null where the mode has none.
+  Json label(std::size_t table, std::size_t mode) const {
+    const bool known = table < mode_labels.size() && mode < mode_labels[table].size();
+    return known && !mode_labels[table][mode].empty() ? Json(mode_labels[table][mode]) : Json(nullptr);
+  }
+};
+
 // How the cut chatters at a crossing; without one every field is null, so that all rows have the same.
-void describe(Json& item, const milling::StabilityCrossing* crossing, bool with_table) {
+void describe(Json& item, const milling::StabilityCrossing* crossing, const Naming& naming) {
   const auto field = [&](const char* name, const auto& value) {
     item[name] = crossing != nullptr ? Json(value(*crossing)) : Json(nullptr);
   };
@@ -29,18 +47,20 @@ void describe(Json& item, const milling::StabilityCrossing* crossing, bool with_
   field("kind", [](const Crossing& c) { return kNames.at(c.kind); });
   field("lobe", [](const Crossing& c) { return c.lobe; });
   field("mode", [](const Crossing& c) { return c.mode + 1; });
+  if (naming.with_labels)
+    field("mode_label", [&](const Crossing& c) { return naming.label(c.table, c.mode); });
   field("participation", [](const Crossing& c) { return c.participation; });
-  if (with_table) field("table", [](const Crossing& c) { return c.table + 1; });
+  if (naming.with_table) field("table", [](const Crossing& c) { return c.table + 1; });
 }
 
 // `failure`: why there is nothing to say of a speed; empty where there is, or of no speed.
 Json limit_to_json(const std::vector<double>& speed_rpm,
                    const std::vector<std::vector<milling::StabilityCrossing>>& crossings,
-                   const std::vector<std::string>& failure, bool with_table) {
+                   const std::vector<std::string>& failure, const Naming& naming) {
   Json list = Json::array();
   for (std::size_t s = 0; s < speed_rpm.size(); ++s) {
     Json item = {{"speed_rpm", speed_rpm[s]}};
-    describe(item, milling::limit_of(crossings[s]), with_table);
+    describe(item, milling::limit_of(crossings[s]), naming);
     const bool failed = s < failure.size() && !failure[s].empty();
     item["not_resolved"] = failed ? Json(failure[s]) : Json(nullptr);
     list.push_back(std::move(item));
@@ -50,12 +70,12 @@ Json limit_to_json(const std::vector<double>& speed_rpm,
 
 Json crossings_to_json(const std::vector<double>& speed_rpm,
                        const std::vector<std::vector<milling::StabilityCrossing>>& crossings,
-                       bool with_table) {
+                       const Naming& naming) {
   Json list = Json::array();
   for (std::size_t s = 0; s < speed_rpm.size(); ++s) {
     for (const milling::StabilityCrossing& crossing : crossings[s]) {
       Json item = {{"speed_rpm", speed_rpm[s]}};
-      describe(item, &crossing, with_table);
+      describe(item, &crossing, naming);
       item["above"] = crossing.unstable_above ? "unstable" : "stable";
       list.push_back(std::move(item));
     }
@@ -292,14 +312,14 @@ Json lobes_to_json(const LobesDocument& lobes) {
         {"index", lobes.shard->index}, {"count", lobes.shard->count}, {"of", lobes.shard->of}};
     document["resolution"] = chart.resolution;
   }
-  const bool with_table = !lobes.tables.empty();
-  if (with_table) document["tables"] = lobes.tables;
+  const Naming naming(lobes);
+  if (naming.with_table) document["tables"] = lobes.tables;
   document["speed_rpm"] = lobes.speed_rpm;
   document["depth_mm"] = lobes.depth_mm;
   if (chart.spectral_radius.size() > 0) document["spectral_radius"] = rows_to_json(chart.spectral_radius);
   if (!lobes.surface.empty()) document["surface"] = surface_to_json(lobes.surface);
-  document["limit"] = limit_to_json(lobes.speed_rpm, chart.crossings, chart.failure, with_table);
-  document["crossings"] = crossings_to_json(lobes.speed_rpm, chart.crossings, with_table);
+  document["limit"] = limit_to_json(lobes.speed_rpm, chart.crossings, chart.failure, naming);
+  document["crossings"] = crossings_to_json(lobes.speed_rpm, chart.crossings, naming);
   if (lobes.sampled) {
     document["samples"] = lobes.samples;
     if (lobes.sampled->stable_share.size() > 0)
@@ -313,8 +333,10 @@ Json lobes_to_json(const LobesDocument& lobes) {
   if (!lobes.per_mode.empty()) {
     Json list = Json::array();
     for (const milling::ModeLimit& limit : lobes.per_mode) {
-      list.push_back(
-          {{"mode", limit.mode + 1}, {"limit", limit_to_json(lobes.speed_rpm, limit.crossings, {}, false)}});
+      Json item = {{"mode", limit.mode + 1}};
+      if (naming.with_labels) item["mode_label"] = naming.label(0, limit.mode);
+      item["limit"] = limit_to_json(lobes.speed_rpm, limit.crossings, {}, naming);
+      list.push_back(std::move(item));
     }
     document["per_mode"] = std::move(list);
   }

@@ -35,6 +35,8 @@ struct Shard {
 struct LobesDocument {
   Json cut;                         ///< as used: the document's fields with the command line's in their place
   std::vector<std::string> tables;  ///< names, where the chart is for several
+  /// Names of the modes of each table, empty where they have none.
+  std::vector<std::vector<std::string>> mode_labels;
   milling::StabilityScheme scheme;
   std::optional<Shard> shard;
   std::vector<double> speed_rpm;

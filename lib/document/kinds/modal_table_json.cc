@@ -1,10 +1,12 @@
 #include "document/kinds/modal_table_json.h"
 
 #include <algorithm>
+#include <set>
 
 #include "document/kinds/frf_json.h"
 #include "document/text/data_error.h"
 #include "document/text/node.h"
+#include "dynamics/mode_comparison.h"
 
 namespace stablecut::document {
 namespace {
@@ -124,8 +126,14 @@ dynamics::ModalModel modal_table_from_json(const Json& document, const Source& s
     if (name.empty() || model.dof(name) >= 0) dof.fail("expected direction names, each once");
     model.dofs.push_back(name);
   }
+  std::set<std::string> labels;
   for (const Node& item : root.at("modes").items(1)) {
-    item.check_names({"frequency_hz", "damping_ratio", "psi_r", "psi_l", "out_of_band", "std"});
+    item.check_names({"frequency_hz", "damping_ratio", "psi_r", "psi_l", "out_of_band", "std", "label",
+                      "phase_collinearity", "complexity"});
+    if (const auto label = item.find("label")) {
+      if (label->text().empty() || !labels.insert(label->text()).second)
+        label->fail("expected a name, each once, or no label");
+    }
     dynamics::Mode mode;
     mode.frequency_hz = item.at("frequency_hz").number(kFrequency);
     mode.damping_ratio = item.at("damping_ratio").number(kDampingRatio);
@@ -165,7 +173,12 @@ Json modal_table_to_json(const dynamics::ModalModel& model) {
                  {"damping_ratio", mode.damping_ratio},
                  {"psi_r", vector_to(mode.psi_r)},
                  {"psi_l", vector_to(mode.psi_l)}};
-    if (mode.out_of_band) item["out_of_band"] = true;
+    if (mode.out_of_band) {
+      item["out_of_band"] = true;
+    } else if (mode.psi_r.size() > 1 && mode.psi_r.norm() > 0) {
+      item["phase_collinearity"] = dynamics::phase_collinearity(mode.psi_r);
+      item["complexity"] = dynamics::complexity(mode.psi_r);
+    }
     if (model.covariance.size() > 0) {
       item["std"] = deviation_to(model.deviation(modes.size()), static_cast<Eigen::Index>(model.dofs.size()));
     }
