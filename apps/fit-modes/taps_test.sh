@@ -42,6 +42,9 @@ fit-modes --taps -x=x.csv --convert --tap-window none --no-provenance -o turned.
 jq '.h[] |= (.re |= map(-.) | .im |= map(-.))' turned.json >back.json
 # An even number of samples has two medians, and the offset is one of them.
 check_jq "a hammer against the axis" back.json "${near/1e-6/1e-5}" --slurpfile r frf.json
+fit-modes --taps x=x.csv --taps y=x.csv --convert --tap-window none --no-provenance -o four.json 2>.err
+check_jq "two directions of the force make a 2x2" four.json '([.h[] | .response + .reference] == ["xx", "yx", "xy", "yy"])
+  and .h[:2] == $r[0].h and .h[2].re == .h[0].re and ([.covariances[].reference] == ["x", "y"])' --slurpfile r frf.json
 for estimator in H2 Hv; do
   fit-modes --taps x=x.csv --estimator $estimator -o other.json 2>.err
   check "$estimator" modes_of other.json 5
