@@ -7,11 +7,6 @@ import sys
 
 from reporting.command import Option, arguments, fail, misuse
 
-try:
-    from reporting.documents import Refused, read_document
-except ImportError as missing:
-    fail(f"{missing.name}: missing (Debian package python3-jsonschema)", 70)
-
 
 def _size(text):
     if not re.fullmatch("[0-9]{2,5}:[0-9]{2,5}", text):
@@ -50,6 +45,11 @@ def start(own, example, synopsis, text, most_inputs=1):
 
 def read(path, kind):
     """A document of that kind; ends the program where there is none."""
+    # Here, so that a wrong option is refused at once.
+    try:
+        from reporting.documents import Refused, read_document
+    except ImportError as missing:
+        fail(f"{missing.name}: missing (Debian package python3-jsonschema)", 70)
     try:
         return read_document(path, kind)
     except Refused as refused:
