@@ -47,7 +47,7 @@ refused 64 '^sdm-lobes: --modes: m99: expected labels of modes of labelled.json'
 refused 64 '^fit-modes: --track: expected without --compare' fit-modes --compare a --track b c
 refused 64 '^fit-modes: --band: expected with a measurement' fit-modes --compare a --band 1:2 c
 refused 64 '^fit-modes: --compare, --track: expected without' fit-modes --compare a --convert c
-refused 64 '^fit-modes: -: expected|standard input' fit-modes --compare - -
+refused 64 '^fit-modes: -: expected standard input for one input only' fit-modes --compare - - <"$table"
 refused 66 '^fit-modes: nowhere.json: cannot be read' fit-modes --compare nowhere.json "$table"
 jq '.dofs = ["u", "v"]' "$table" >elsewhere.json
 refused 65 '^fit-modes: elsewhere.json: /dofs: no direction in common' fit-modes --compare elsewhere.json "$table"

@@ -126,7 +126,7 @@ Statistics campaigns(int count, double seconds, double decay_per_s,
       result.bound = bound_of(exact, campaign.hits[0], campaign.frf.frequency_hz, campaign.length_s);
     const dynamics::FrequencyResponse frf = dynamics::to_receptance(campaign.frf);
     const modal::ModalFit fit = modal::fit_modes(frf, {});
-    dynamics::ModalModel table = dynamics::with_window_noise(fit.model, frf);
+    dynamics::ModalModel table = fit.limited_by_model ? fit.model : dynamics::with_window_noise(fit.model, frf);
     if (decay_per_s > 0) table = dynamics::without_window(table, decay_per_s);
     std::vector<std::size_t> own;
     for (std::size_t k = 0; k < table.modes.size(); ++k) {

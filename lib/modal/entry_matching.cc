@@ -17,6 +17,7 @@ using Complex = std::complex<double>;
 
 constexpr double kMostDelay = 6e-3;     // s
 constexpr double kStepsPerPeriod = 12;  // of the highest line, in which delays are tried
+constexpr double kMostTrials = 1e4;     // bounds the time: reached at 140 kHz
 constexpr double kHalfOctave = 1.4142135623730951;
 constexpr double kGolden = 0.6180339887498949;
 constexpr int kSections = 12;               // of the interval of a delay
@@ -265,7 +266,7 @@ FitData mended(FitData data, const EntryMismatch& mismatch) {
 }
 
 double best_delay(double highest, const std::function<double(double)>& value) {
-  const double step = 2 * M_PI / (kStepsPerPeriod * highest);
+  const double step = std::max(2 * M_PI / (kStepsPerPeriod * highest), kMostDelay / kMostTrials);
   double best = 0, most = value(0);
   for (double delay = step; delay <= kMostDelay; delay += step) {
     for (const double of_either_sign : {delay, -delay}) {

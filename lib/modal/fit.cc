@@ -55,6 +55,7 @@ FitData group_data(const dynamics::FrequencyResponse& measured, const DirectionG
   FitData data;
   data.s = Complex(0, kTwoPi) * measured.frequency_hz.cast<Complex>();
   data.dofs = static_cast<Eigen::Index>(dofs.size());
+  data.independent_lines = measured.window_decay_per_s == 0;
   const auto index = [&](const std::string& name) {
     return std::find(dofs.begin(), dofs.end(), name) - dofs.begin();
   };

@@ -130,7 +130,7 @@ FittedTable fitted_table(const FitData& data, const std::vector<dynamics::Mode>&
   const NormalEquations normal = likelihood.evaluate(x, true);
   table.covariance = slope * (inverse_normal_matrix(normal) / 2) * slope.transpose();
   std::vector<Eigen::VectorXd> shifts = scale_shifts(data, parameters, fitted);
-  if (model == ModeModel::kNonsymmetric) {
+  if (model == ModeModel::kNonsymmetric && data.independent_lines) {
     for (Eigen::VectorXd& error : shape_errors(data, parameters, x, normal))
       shifts.push_back(std::move(error));
   }

@@ -14,7 +14,7 @@ namespace stablecut::modal {
 struct GroupFit {
   FitData data;                  ///< the curves, with weights from `variance` and `regime`
   CurveVariances variance;       ///< of the noise
-  CurveVariances shared;         ///< relative variance of what curves of one reference share; empty: nothing
+  CurveVariances shared;         ///< variance of what curves of one reference share; empty: nothing
   bool noise_estimated = false;  ///< `variance` was estimated, not given
   Regime regime = Regime::kNoise;
   ModeModel model = ModeModel::kNonsymmetric;

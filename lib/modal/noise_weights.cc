@@ -41,10 +41,9 @@ void weigh_curves(FitData& data, const CurveVariances& variance, const CurveVari
             .inverse();
     curve.shared.resize(0);
     if (regime == Regime::kModelError || shared.empty() || shared[e].size() == 0) continue;
-    // The floors are the curve's own.
-    const Eigen::ArrayXd share =
-        shared[e].array().min(variance[e].array() / curve.h.array().abs2().max(kLeast));
-    curve.shared = curve.h.array() * share.sqrt();
+    // The floors are the curve's own. Of the measured values only the phase, which all curves turn alike:
+    // with their size, which is noisy too, less than nothing could be left of the own part.
+    curve.shared = curve.h.array() * (shared[e].array() / curve.h.array().abs2().max(kLeast)).sqrt();
   }
 }
 

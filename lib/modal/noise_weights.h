@@ -25,7 +25,7 @@ inline constexpr double kModelErrorFloor = 0.045;
 using CurveVariances = std::vector<Eigen::VectorXd>;
 
 /// Sets the curves' weights to 1 / (variance + the regime's floors), and what of their errors they share by
-/// `shared`, a variance relative to the curve's square (nothing where it is empty, and where the model is the
+/// `shared`, the shared part of the variance (nothing where it is empty, and where the model is the
 /// limit).
 void weigh_curves(FitData& data, const CurveVariances& variance, const CurveVariances& shared, Regime regime);
 

@@ -92,6 +92,31 @@ void split(const FitData& data, double correction, bool local_allowed, Column& c
   }
 }
 
+// Twice the logarithm of the errors' likelihood, but for a constant: independent errors of these variances.
+double likelihood_of(const Column& column, const CurveVariances& variance) {
+  double sum = 0;
+  for (std::size_t c = 0; c < column.curves.size(); ++c) {
+    const auto v = variance[column.curves[c]].array();
+    sum -= (v.log() + column.error[c].array().abs2() / v).sum();
+  }
+  return sum;
+}
+
+// The same with the shared part: the covariance is diagonal but for one product, whose inverse and
+// determinant are those of [Sherman1950].
+double likelihood_of(const Column& column) {
+  Eigen::ArrayXd precision = column.shared.inverse();
+  Eigen::ArrayXcd mean = Eigen::ArrayXcd::Zero(precision.size());
+  double sum = -column.shared.log().sum();
+  for (std::size_t c = 0; c < column.curves.size(); ++c) {
+    const auto model = column.model[c].array();
+    precision += model.abs2() / column.own[c];
+    mean += model.conjugate() * column.error[c].array() / column.own[c];
+    sum -= (column.own[c].log() + column.error[c].array().abs2() / column.own[c]).sum();
+  }
+  return sum - precision.log().sum() + (mean.abs2() / precision).sum();
+}
+
 }  // namespace
 
 CurveVariances shared_noise(const FitData& data, const std::vector<dynamics::Mode>& modes, double correction,
@@ -107,9 +132,12 @@ CurveVariances shared_noise(const FitData& data, const std::vector<dynamics::Mod
       column.own.emplace_back((whole - share * column.model[c].array().abs2()).max(kLeastOwnNoise * whole));
     }
     split(data, correction, local_allowed, column);
+    // Smooth parts are no better than variances line by line where these know more: how a hammer's force
+    // fades.
+    if (!(likelihood_of(column) > likelihood_of(column, variance) + std::log(data.values()))) continue;
     for (std::size_t c = 0; c < column.curves.size(); ++c) {
-      shared[column.curves[c]] = column.shared;
-      variance[column.curves[c]] = column.own[c] + column.shared * column.model[c].array().abs2();
+      shared[column.curves[c]] = column.shared * column.model[c].array().abs2();
+      variance[column.curves[c]] = column.own[c] + shared[column.curves[c]].array();
     }
   }
   return shared;
