@@ -120,9 +120,7 @@ class FitModes : public cli::Tool {
   modal::ModalFit fitted(const dynamics::FrequencyResponse& measured) const {
     return named([&] {
       cli::ProgressBar bar("fit-modes", !quiet());
-      modal::ModalFit result =
-          modal::fit_modes(measured, choice_.options([&](double share) { bar.show(share); }));
-      return result;
+      return modal::fit_modes(measured, choice_.options([&](double share) { bar.show(share); }));
     });
   }
 

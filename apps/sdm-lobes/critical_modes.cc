@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "base/number_text.h"
+#include "base/units.h"
 
 namespace stablecut {
 namespace {
 
 constexpr double kNoDamping = 1e-4;  // no assembled structure has a damping ratio below
 constexpr double kDeviations = 2;    // between which and zero a number is not sure
-constexpr int kMillimetres = 1000;   // of a metre
 
 std::optional<std::string> doubt(const dynamics::ModalModel& table, std::size_t k) {
   const dynamics::Mode& mode = table.modes[k];
@@ -50,7 +50,7 @@ std::vector<std::string> doubtful_critical_modes(const milling::StabilityChart& 
     if (!text) continue;
     lines.push_back("mode " + std::to_string(k + 1) + " (" +
                     number_text(tables[table].modes[k].frequency_hz, 3) + " Hz) limits the depth down to " +
-                    number_text(kMillimetres * depth_m, 3) + " mm, but " + *text);
+                    number_text(mm_from_metres(depth_m), 3) + " mm, but " + *text);
   }
   return lines;
 }

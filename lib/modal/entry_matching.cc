@@ -6,8 +6,10 @@
 #include <complex>
 #include <utility>
 
+#include "base/units.h"
 #include "modal/tap_channels.h"
 #include "modal/vector_fitting.h"
+#include "numerics/golden_section.h"
 #include "numerics/order_statistics.h"
 
 namespace stablecut::modal {
@@ -19,7 +21,6 @@ constexpr double kMostDelay = 6e-3;     // s
 constexpr double kStepsPerPeriod = 12;  // of the highest line, in which delays are tried
 constexpr double kMostTrials = 1e4;     // bounds the time: reached at 140 kHz
 constexpr double kHalfOctave = 1.4142135623730951;
-constexpr double kGolden = 0.6180339887498949;
 constexpr int kSections = 12;               // of the interval of a delay
 constexpr Eigen::Index kPhaseLines = 1000;  // of which phases are looked at, or a few more
 // Mean square of the energy that a driving point seems to give, as a sine of the phase, that is conspicuous,
@@ -266,7 +267,7 @@ FitData mended(FitData data, const EntryMismatch& mismatch) {
 }
 
 double best_delay(double highest, const std::function<double(double)>& value) {
-  const double step = std::max(2 * M_PI / (kStepsPerPeriod * highest), kMostDelay / kMostTrials);
+  const double step = std::max(kTwoPi / (kStepsPerPeriod * highest), kMostDelay / kMostTrials);
   double best = 0, most = value(0);
   for (double delay = step; delay <= kMostDelay; delay += step) {
     for (const double of_either_sign : {delay, -delay}) {
@@ -276,12 +277,17 @@ double best_delay(double highest, const std::function<double(double)>& value) {
       best = of_either_sign;
     }
   }
-  double lo = best - step, hi = best + step;
-  for (int i = 0; i < kSections; ++i) {
-    const double a = hi - kGolden * (hi - lo), b = lo + kGolden * (hi - lo);
-    (value(a) > value(b) ? hi : lo) = value(a) > value(b) ? b : a;
-  }
-  return (lo + hi) / 2;
+  struct Trial {
+    double delay, value;
+  };
+  return numerics::golden_section(
+             best - step, best + step, Trial{best, most}, kSections, [](const Trial& t) { return t.delay; },
+             [&](double delay) {
+               return Trial{delay, value(delay)};
+             },
+             [](const Trial& a, const Trial& b) { return a.value > b.value; },
+             [](const Trial&) { return false; })
+      .delay;
 }
 
 std::vector<EntryMismatch> suggested_mismatches(const FitData& data, const Eigen::VectorXcd& poles,

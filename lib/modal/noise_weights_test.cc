@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "modal/error_weights.h"
 #include "modal/modal_fixtures_test.h"
 
 using namespace stablecut;
@@ -33,6 +34,25 @@ TEST_CASE("a weight is the inverse of the variance and the regime's floors") {
               .inverse();
       CHECK((curve.weight - expected).norm() < 1e-12 * expected.norm());
     }
+  }
+}
+
+TEST_CASE("where nearly all noise is shared each curve keeps what it has of its own") {
+  FitData data = fixtures::data_of(fixtures::close_pair(), 1e-2);
+  CurveVariances own, shared, variance;
+  for (const Curve& curve : data.curves) {
+    shared.push_back(1e-2 * curve.h.cwiseAbs2());
+    own.push_back(1e-3 * shared.back());
+    variance.push_back(own.back() + shared.back());
+  }
+  // The measured values are off by more than the own part: the shared variance is not theirs any more.
+  for (Curve& curve : data.curves) curve.h *= 1.1;
+  weigh_curves(data, variance, shared, Regime::kNoise);
+  const std::vector<ErrorWeights> weights = error_weights(data);
+  for (std::size_t c = 0; c < own.size(); ++c) {
+    // The regime's floor is a thousandth of the own part, and adds some more where the curve is small.
+    CHECK((weights[c].own.cwiseProduct(own[c]).array() <= 1 + 1e-9).all());
+    CHECK((weights[c].own.cwiseProduct(own[c]).array() > 0.5).any());
   }
 }
 
