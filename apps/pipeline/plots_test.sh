@@ -97,6 +97,9 @@ check "a chart without a limit says so" grep -q 'stable over the whole chart' st
 sdm-lobes "$data/thesis-table-6-2.json" --cut "$data/thesis-cut.json" --speed 5000:20000:12 --modes 3,5,13 --per-mode --limit-only --quiet -o per-mode.json
 "$scripts/plot-lobes" --per-mode per-mode.json -o per-mode.svg
 check "a curve for each mode with a limit" test "$(grep -oE 'mode [0-9]+ alone' per-mode.svg | sort -u | tr '\n' ' ')" = 'mode 3 alone mode 5 alone '
+sdm-lobes "$data/thesis-table-6-2.json" --cut "$data/thesis-cut.json" --speed 9000:12000:6 --depth 0:1.5:2 --per-mode --quiet -o shallow.json
+check_jq "some speeds have no limit" shallow.json '[.limit[] | .mode == null] | any and (all | not)'
+check "they have no mode" "$scripts/plot-lobes" --per-mode shallow.json -o shallow.svg
 refused 65 '^plot-lobes: lobes.json: /per_mode: expected a chart' "$scripts/plot-lobes" --per-mode lobes.json -o x.svg
 cp per-mode.json "a'; system \"touch pwned\" #.json"
 "$scripts/plot-lobes" lobes.json per-mode.json "a'; system \"touch pwned\" #.json" -o several.svg

@@ -17,13 +17,18 @@ class Limit(unittest.TestCase):
         self.assertEqual([row for row in leaving if row], [(2, 0.5), (1, 4), (2, 0.5), (3, 4)])
 
     def test_what_is_not_resolved_is_a_gap_without_a_way_out(self):
-        entries = [{"speed_rpm": 1, "not_resolved": "why"}, {"speed_rpm": 2, "depth_mm": 0.5}, {"speed_rpm": 3, "depth_mm": 0.6}]
+        entries = [{"speed_rpm": 1, "depth_mm": None, "not_resolved": "why"}, {"speed_rpm": 2, "depth_mm": 0.5}, {"speed_rpm": 3, "depth_mm": 0.6}]
         rows, leaving, alone = lobes.curve(entries, 4)
         self.assertEqual((rows, leaving, alone), ([(), (2, 0.5), (3, 0.6)], [], []))
 
     def test_speeds_between_the_charts_are_joined_in_order(self):
         content = {"limit": [{"speed_rpm": 1}, {"speed_rpm": 3}], "what_to_run": {"limit_between": [{"speed_rpm": 2}]}}
         self.assertEqual([entry["speed_rpm"] for entry in lobes.limit(content)], [1, 2, 3])
+
+    def test_a_speed_without_a_limit_has_no_mode(self):
+        stable = {"speed_rpm": 1, "depth_mm": None, "mode": None, "table": None, "lobe": None}
+        limits = [{"speed_rpm": rpm, "depth_mm": 1, "mode": mode, "table": 2, "lobe": 0} for rpm, mode in ((2, 15), (3, 4))]
+        self.assertEqual(lobes.modes([stable, *limits]), ["table 2, mode 4", "table 2, mode 15"])
 
     def test_each_stretch_of_a_lobe_is_one(self):
         def entry(depth, lobe, mode):

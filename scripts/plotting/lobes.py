@@ -10,7 +10,7 @@ def limit(content):
 
 
 def _unknown(entry):
-    return entry.get("not_resolved") is not None or "depth_mm" not in entry
+    return entry.get("not_resolved") is not None
 
 
 def curve(entries, top):
@@ -43,12 +43,12 @@ def lobes(entries):
 
 
 def mode_name(entry):
-    return (f"table {entry['table']}, " if "table" in entry else "") + f"mode {entry['mode']}"
+    return (f"table {entry['table']}, " if entry.get("table") is not None else "") + f"mode {entry['mode']}"
 
 
 def modes(entries, most=9):
     """Names of the modes that chatter, those of the most entries, by number."""
-    counts = collections.Counter((entry.get("table", 0), entry["mode"], mode_name(entry)) for entry in entries if "mode" in entry)
+    counts = collections.Counter((entry.get("table", 0), entry["mode"], mode_name(entry)) for entry in entries if entry.get("mode") is not None)
     return [name for _, _, name in sorted(key for key, _ in counts.most_common(most))]
 
 
