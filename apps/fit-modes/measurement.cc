@@ -1,6 +1,5 @@
 #include "measurement.h"
 
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -80,13 +79,11 @@ void MeasurementOptions::take_correction(const std::string& option, const std::s
 void MeasurementOptions::finish(Measurement& measurement) const {
   for (const Correction& correction : corrections_) {
     bool any = false;
-    for (dynamics::FrequencyResponseEntry& entry : measurement.frf.entries) {
+    for (std::size_t e = 0; e < measurement.frf.entries.size(); ++e) {
+      const dynamics::FrequencyResponseEntry& entry = measurement.frf.entries[e];
       if (!correction.entry.empty() && correction.entry != entry.response + entry.reference) continue;
       any = true;
-      // Under an exponential window a delay is one of exp((i omega + decay) delay).
-      const double delay_s = 1e-3 * correction.delay_ms;
-      dynamics::correct(measurement.frf.frequency_hz, delay_s,
-                        correction.factor * std::exp(measurement.frf.window_decay_per_s * delay_s), entry);
+      dynamics::correct(measurement.frf, e, 1e-3 * correction.delay_ms, correction.factor);
     }
     if (!any)
       throw cli::WrongUsage(correction.option + ": " + correction.text + ": expected an entry of " +

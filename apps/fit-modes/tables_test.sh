@@ -19,7 +19,7 @@ check_jq "that of mode 2 with mode 5 by hand" compared.json '.mac[1][4] as $mac 
   | ([range(2) | $a[.][0] * $b[.][1] - $a[.][1] * $b[.][0]] | add) as $im
   | (($re * $re + $im * $im) / (([$a[][]] | map(. * .) | add) * ([$b[][]] | map(. * .) | add)) - $mac | fabs) < 1e-12' \
   --slurpfile t "$table" --slurpfile f fit.json
-check_jq "real modes have one phase" fit.json '[.modes[] | select(.out_of_band | not)] | length > 0 and all(.phase_collinearity >= 0 and .phase_collinearity <= 1
+check_jq "complexity lies between 0 and 1" fit.json '[.modes[] | select(.out_of_band | not)] | length > 0 and all(.phase_collinearity >= 0 and .phase_collinearity <= 1
   and .complexity >= 0 and .complexity <= 1)'
 jq '.modes |= map(.psi_r = [[1e-3, -1e-3], [2e-3, -2e-3]] | .psi_l = .psi_r)' "$table" >real.json
 fit-modes --synthesize 2:1000:3993 real.json | fit-modes --quiet --modes 15 -o real-fit.json

@@ -97,11 +97,20 @@ FrequencyResponse without_lines(const FrequencyResponse& frf, const std::vector<
   return select(frf, kept);
 }
 
-void correct(const Eigen::VectorXd& frequency_hz, double delay_s, double factor,
-             FrequencyResponseEntry& entry) {
-  for (Eigen::Index i = 0; i < entry.h.size(); ++i)
-    entry.h[i] *= factor * std::polar(1.0, kTwoPi * frequency_hz[i] * delay_s);
-  entry.variance *= factor * factor;
+void correct(FrequencyResponse& frf, std::size_t entry, double delay_s, double factor) {
+  FrequencyResponseEntry& own = frf.entries[entry];
+  const double size = factor * std::exp(frf.window_decay_per_s * delay_s);
+  Eigen::VectorXcd change(frf.frequency_hz.size());
+  for (Eigen::Index i = 0; i < change.size(); ++i)
+    change[i] = size * std::polar(1.0, kTwoPi * frf.frequency_hz[i] * delay_s);
+  own.h = own.h.cwiseProduct(change);
+  own.variance *= size * size;
+  for (ColumnCovariance& covariance : frf.covariances) {
+    if (covariance.reference != own.reference) continue;
+    if (covariance.response == own.response) covariance.value = covariance.value.cwiseProduct(change);
+    if (covariance.other == own.response)
+      covariance.value = covariance.value.cwiseProduct(change.conjugate());
+  }
 }
 
 FrequencyResponse on_lines(const FrequencyResponse& frf, const Eigen::VectorXd& frequency_hz) {

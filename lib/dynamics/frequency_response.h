@@ -62,10 +62,9 @@ FrequencyResponse within_band(const FrequencyResponse& frf, double lo_hz, double
 /// All lines except those with these (increasing) indices.
 FrequencyResponse without_lines(const FrequencyResponse& frf, const std::vector<Eigen::Index>& lines);
 
-/// Takes a delay of the response (s) off an entry on these lines, h exp(i omega delay_s), and multiplies it
-/// by the factor, the variance by its square.
-void correct(const Eigen::VectorXd& frequency_hz, double delay_s, double factor,
-             FrequencyResponseEntry& entry);
+/// Takes a delay of the response (s) off an entry, h exp(s delay_s) with s = i omega + decay as above, and
+/// multiplies it by the factor; its variance and covariances follow.
+void correct(FrequencyResponse& frf, std::size_t entry, double delay_s, double factor);
 
 /// The same on other lines (Hz, increasing). A line that was measured keeps its values; between lines h
 /// follows the cubic through the four nearest ones, and the variance a straight line. Coherences are left

@@ -130,3 +130,23 @@ TEST_CASE("through an exponential window, accelerance is s^2 times receptance at
   for (const auto& value : receptance.entries[0].h)
     CHECK(std::abs(value - std::complex<double>(2, 1)) < 1e-14);
 }
+
+TEST_CASE("a delay or a factor taken off one entry leaves errors correlated as they were") {
+  FrequencyResponse frf = sample(Quantity::kReceptance);
+  frf.entries.push_back(frf.entries[0]);
+  frf.entries[1].response = "y";
+  frf.window_decay_per_s = 3;
+  // The errors of both are one: their covariance is the geometric mean of the variances.
+  frf.covariances.push_back({"x", "y", "y", frf.entries[0].variance.cast<std::complex<double>>()});
+  const FrequencyResponse before = frf;
+  correct(frf, 1, 0.02, -1.5);
+  CHECK(frf.entries[0].h == before.entries[0].h);
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const std::complex<double> s(3, kTwoPi * frf.frequency_hz[i]), change = -1.5 * std::exp(s * 0.02);
+    CHECK(std::abs(frf.entries[1].h[i] - change * before.entries[1].h[i]) < 1e-14);
+    const double both = frf.entries[0].variance[i] * frf.entries[1].variance[i];
+    CHECK(std::abs(std::norm(frf.covariances[0].value[i]) / both - 1) < 1e-14);
+    // An error d of x, of y then change d: E[d conj(change d)].
+    CHECK(std::abs(frf.covariances[0].value[i] - std::conj(change) * before.entries[0].variance[i]) < 1e-13);
+  }
+}

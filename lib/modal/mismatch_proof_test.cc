@@ -66,7 +66,7 @@ TEST_CASE("an entry that comes late is named with its delay") {
     for (const std::size_t entry : {0u, 1u}) {
       if (entry == 0 && delay_s > 1e-3) continue;  // a search of many modes: 10 s
       dynamics::FrequencyResponse frf = tap(4);
-      dynamics::correct(frf.frequency_hz, -delay_s, 1, frf.entries[entry]);
+      dynamics::correct(frf, entry, -delay_s, 1);
       const std::vector<FitFinding> found = mismatches(frf);
       REQUIRE(found.size() == 1);
       CHECK(found[0].kind == FitFindingKind::kDelayed);
@@ -75,7 +75,8 @@ TEST_CASE("an entry that comes late is named with its delay") {
       CHECK(std::abs(found[0].delay_s - delay_s) < 2e-6);
     }
     dynamics::FrequencyResponse frf = tap(5);
-    for (auto& entry : frf.entries) dynamics::correct(frf.frequency_hz, -delay_s, 1, entry);
+    for (std::size_t entry = 0; entry < frf.entries.size(); ++entry)
+      dynamics::correct(frf, entry, -delay_s, 1);
     const std::vector<FitFinding> found = mismatches(frf);
     REQUIRE(found.size() == 1);
     CHECK(found[0].kind == FitFindingKind::kAllDelayed);
@@ -86,7 +87,7 @@ TEST_CASE("an entry that comes late is named with its delay") {
 TEST_CASE("an entry whose scale is off is named with its factor") {
   for (const double factor : {0.96, 1.05, 1000.0}) {
     dynamics::FrequencyResponse frf = tap(6);
-    dynamics::correct(frf.frequency_hz, 0, factor, frf.entries[1]);
+    dynamics::correct(frf, 1, 0, factor);
     const std::vector<FitFinding> found = mismatches(frf);
     REQUIRE(found.size() == 1);
     CHECK(found[0].kind == FitFindingKind::kScaled);
@@ -95,7 +96,7 @@ TEST_CASE("an entry whose scale is off is named with its factor") {
   }
   // Of two driving points nothing tells which.
   dynamics::FrequencyResponse frf = tap(7);
-  dynamics::correct(frf.frequency_hz, 0, 1.05, frf.entries[3]);
+  dynamics::correct(frf, 3, 0, 1.05);
   const std::vector<FitFinding> found = mismatches(frf);
   REQUIRE(found.size() == 1);
   CHECK(found[0].missing.size() == 2);
