@@ -266,7 +266,7 @@ void take_part(const Node& root, const Shard& shard, bool with_grid, LobesDocume
     chart.error[column(s)] = root.at("convergence").number(kNotNegative);
     chart.resolution[column(s)] = static_cast<int>(resolution[s]);
     if (const auto reason = limits[s].find("not_resolved"); reason && !reason->is_null())
-      chart.failure[column(s)] = limits[s].at("not_resolved").text();
+      chart.failure[column(s)] = reason->text();
     if (!whole.sampled) continue;
     const auto interval = limits[s].at("interval_95_mm").items(2);
     for (std::size_t end = 0; end < 2; ++end) {
