@@ -59,7 +59,7 @@ TEST_CASE("sound entries fit together") {
   for (const std::uint64_t seed : {1, 2, 3}) CHECK(mismatches(tap(seed)).empty());
 }
 
-TEST_CASE("an entry that comes late is named with its delay") {
+TEST_CASE("an entry that comes late is named with its delay", "[campaign]") {
   // A delay turns the phase by omega delay. Noise of 1 / 560 over 1500 lines leaves far less than a
   // microsecond where an entry is compared with others, and some of them where modes may turn as well.
   for (const double delay_s : {2e-4, 3e-3}) {

@@ -101,7 +101,8 @@ TEST_CASE("hum is not ringing") {
   CHECK(needed_decay({record}, found.hits, found.length) == 0);
 }
 
-TEST_CASE("ten hits with noise on the force and a double hit among them: the spread is that of the errors") {
+TEST_CASE("ten hits with noise on the force and a double hit among them: the spread is that of the errors",
+          "[campaign]") {
   constexpr int kCampaigns = 40;
   constexpr Eigen::Index kLines = 500;
   std::mt19937_64 generator(100);
