@@ -41,7 +41,7 @@ refused 64 '^cut-force: --identify: expected a cut without lead_angle_deg' cut-f
 jq '.dofs += ["z"] | .modes[] |= (.psi_r += [.psi_r[0]] | .psi_l += [.psi_l[0]])' "$table" >with-z.json
 jq '.ka_n_per_mm2 = 100' cut.json | cut-force --table with-z.json --depth 0.2 --speed 9000 -o z.json 2>said
 check "z that does not take part is said" grep -q 'with-z.json: /dofs: "z": left out' said
-refused 64 '^cut-force: --passes, --steps, --from-rest: expected with --table' cut-force cut.json --from-rest
+refused 64 '^cut-force: --passes, --steps, --from-rest, --tooth-paths: expected with --table' cut-force cut.json --from-rest
 refused 64 '^cut-force: --identify: expected without --depth' cut-force "$tool" --identify "$forces" --depth 1
 refused 64 '^cut-force: --edges: expected with --identify' cut-force cut.json --edges cut
 refused 64 '^cut-force: --edges: none: expected fit\|cut' cut-force "$tool" --identify "$forces" --edges none

@@ -57,6 +57,9 @@ class CutForce : public cli::Tool {
     app.add_flag("--from-rest", request_.from_rest,
                  "Begin at rest in the full cut, a blow, instead of beside the periodic motion");
 
+    cli::add_choice_option(app, "--tooth-paths", paths_, "circles|cycloids",
+                           "Paths of the teeth as the tool is fed (default: circles)");
+
     cli::begin_group(app, "Coefficients from forces");
     identify_option_ =
         add_file_option(app, "--identify", forces_path_,
@@ -91,14 +94,13 @@ class CutForce : public cli::Tool {
   void check_usage() const {
     const bool identifies = identify_option_->count() > 0;
     const bool learns = !tested_path_.empty();
+    const bool simulates = request_.passes || request_.steps || request_.from_rest || !paths_.empty();
     cli::refuse_if(identifies && learns, "--tested: expected without --identify");
     cli::refuse_if(identifies && (depth_ || speed_ || harmonics_ || !table_path_.empty()),
                    "--identify: expected without --depth, --speed, --harmonics and --table");
-    cli::refuse_if(
-        learns && (depth_ || speed_ || harmonics_ || !points_path_.empty() || request_.passes ||
-                   request_.steps || request_.from_rest),
-        "--tested: expected without --depth, --speed, --harmonics, --points, --passes, --steps and "
-        "--from-rest");
+    cli::refuse_if(learns && (depth_ || speed_ || harmonics_ || !points_path_.empty() || simulates),
+                   "--tested: expected without --depth, --speed, --harmonics, --points, --passes, --steps, "
+                   "--from-rest and --tooth-paths");
     cli::refuse_if(learns && table_path_.empty(), "--tested: expected with --table");
     cli::refuse_if(!learns && (samples_ || seed_ || wrong_share_),
                    "--samples, --seed, --wrong-share: expected with --tested only");
@@ -107,8 +109,8 @@ class CutForce : public cli::Tool {
     cli::refuse_if(!points_path_.empty() && table_path_.empty(), "--points: expected with --table only");
     cli::refuse_if(!table_path_.empty() && !learns && points_path_.empty() && !(depth_ && speed_),
                    "--table: expected --points, or --depth and --speed");
-    cli::refuse_if((request_.passes || request_.steps || request_.from_rest) && table_path_.empty(),
-                   "--passes, --steps, --from-rest: expected with --table only");
+    cli::refuse_if(simulates && table_path_.empty(),
+                   "--passes, --steps, --from-rest, --tooth-paths: expected with --table only");
   }
 
   // Neither the simulation nor the separation of plane and axis knows such edges.
@@ -147,6 +149,7 @@ class CutForce : public cli::Tool {
         name = table.source.name;
         if (points.empty()) throw document::DataError(name, "", "", "expected one cut at least");
       }
+      if (paths_ == "cycloids") request_.path = milling::ToothPath::kCycloid;
       cli::ProgressBar bar("cut-force: points", !quiet());
       document.points = simulated_points(structure, cut, points, request_, threads(),
                                          [&](double share) { bar.show(share); });
@@ -203,7 +206,7 @@ class CutForce : public cli::Tool {
   std::optional<double> depth_, speed_, wrong_share_;
   std::optional<int> harmonics_, samples_, seed_;
   PointRequest request_;
-  std::string table_path_, points_path_, tested_path_, forces_path_, edges_, force_on_;
+  std::string table_path_, points_path_, tested_path_, forces_path_, edges_, force_on_, paths_;
   CLI::Option* identify_option_ = nullptr;
 };
 

@@ -24,6 +24,14 @@ jq '.helix_deg = 30' cut.json >helix.json
 cut-force helix.json --depth 3 -o helix-out.json
 check_jq "a helix leaves the mean and lowers the peak" helix-out.json '([.mean_force_n, $deep[0].mean_force_n] | transpose | all((.[0] - .[1]) | fabs < 1e-9))
   and .peak_force_n < 0.99 * $deep[0].peak_force_n' --slurpfile deep deep.json
+jq '.helix_deg = [30, 30]' cut.json | cut-force --depth 3 --no-provenance | jq 'del(.cut)' >listed.json
+check_jq "a list of one angle is that angle" listed.json '. == ($one[0] | del(.cut, .provenance))' --slurpfile one helix-out.json
+jq '.helix_deg = [30, 40]' cut.json >variable.json
+cut-force variable.json --depth 3 -o variable-out.json
+check_jq "helices that differ leave the mean, and repeat by the revolution" variable-out.json '
+  ([.mean_force_n, $deep[0].mean_force_n] | transpose | all((.[0] - .[1]) | fabs < 1e-9)) and .harmonics[0].per_revolution == 1' \
+  --slurpfile deep deep.json
+refused 1 'an edge comes up with the one before it .*: expected a smaller depth$' cut-force variable.json --depth 300
 
 points=$data/thesis-table-6-3.csv
 cut-force cut.json --table "$table" --points "$points" --threads 1 --passes 200 --quiet -o one.json

@@ -19,10 +19,11 @@ std::vector<document::SimulatedPoint> simulated_points(const milling::TipStructu
       [&](std::size_t i) {
         result[i].cut = points[i];
         try {
-          result[i].result = milling::simulate_cut(
-              structure, cut.cutter, cut.load,
-              {revolutions_per_s_from_rpm(points[i].speed_rpm), metres_from_mm(points[i].depth_mm),
-               request.passes, request.steps, request.from_rest});
+          milling::SimulationRequest simulated{revolutions_per_s_from_rpm(points[i].speed_rpm),
+                                               metres_from_mm(points[i].depth_mm), request.passes,
+                                               request.steps, request.from_rest};
+          simulated.path = request.path;
+          result[i].result = milling::simulate_cut(structure, cut.cutter, cut.load, simulated);
         } catch (const NoAnswer& failure) {
           result[i].failure = failure.what();
         }

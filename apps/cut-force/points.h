@@ -7,6 +7,7 @@
 #include "base/progress.h"
 #include "document/kinds/cut_force_json.h"
 #include "document/kinds/cut_json.h"
+#include "milling/simulation_grid.h"
 #include "milling/structure.h"
 
 namespace stablecut {
@@ -14,6 +15,7 @@ namespace stablecut {
 struct PointRequest {
   std::optional<int> passes, steps;
   bool from_rest = false;
+  milling::ToothPath path = milling::ToothPath::kCircle;
 };
 
 /// One result for each cut, the same whatever the number of threads. Throws NoAnswer where there is none.

@@ -81,6 +81,7 @@ void CutOptions::check_method(const std::string& method) const {
 }
 
 document::Json CutOptions::as_used(const Range& speed_rpm, const Range& depth_mm) const {
+  cut_.cutter.check_edges_apart(metres_from_mm(depth_mm.to));
   document::Json used = document_;
   used.erase("format");
   used.erase("provenance");

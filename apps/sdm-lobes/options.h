@@ -31,7 +31,8 @@ class CutOptions {
   /// Throws WrongUsage where the method is not one for this cutter.
   void check_method(const std::string& method) const;
   const document::CutDocument& cut() const { return cut_; }
-  /// The document with the chart that is computed in its place, without format and provenance.
+  /// The document with the chart that is computed in its place, without format and provenance. Throws
+  /// NoAnswer where edges meet within it.
   document::Json as_used(const Range& speed_rpm, const Range& depth_mm) const;
 
  private:

@@ -174,6 +174,13 @@ check_jq "hardly a corner is none" corner-out.json '[.spectral_radius, $one[0].s
 jq '.lead_angle_deg = 91' "$cut" >wrong.json
 refused 65 'wrong.json: /lead_angle_deg: 91: expected a lead angle' sdm-lobes "$table" --cut wrong.json "${small[@]}"
 
+# An edge twice as steep as the other hardly matters where both are hardly inclined.
+jq '.helix_deg = [1e-7, 2e-7]' "$cut" >listed.json
+sdm-lobes "$table" --cut listed.json --speed 9000:9000:1 --depth 0:2:3 --quiet -o listed-out.json
+sdm-lobes "$table" --cut "$cut" --speed 9000:9000:1 --depth 0:2:3 --quiet -o straight-out.json
+check_jq "helices that hardly differ are none" listed-out.json '[.spectral_radius[][], .limit[0].depth_mm] as $a
+  | [$one[0].spectral_radius[][], $one[0].limit[0].depth_mm] as $b | [$a, $b] | transpose | all(.[0] - .[1] | fabs < 1e-5)' \
+  --slurpfile one straight-out.json
 jq '.helix_deg = 1e-7 | .pitch_deg = [180, 180]' "$cut" >plain.json
 sdm-lobes "$table" --cut plain.json "${small[@]}" -o plain-out.json
 check_jq "hardly any helix is none" plain-out.json '[.spectral_radius, $one[0].spectral_radius]

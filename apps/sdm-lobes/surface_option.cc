@@ -67,6 +67,7 @@ void SurfaceOption::check(const document::CutDocument& cut, const std::string& m
   cli::refuse_if(wanted_ && !has_whole_grid, "--surface: expected a chart with its grid, not in parts");
   cli::refuse_if(tables > 1, name + ": expected with one modal table only");
   cli::refuse_if(method == "sdm", name + ": expected with --method spectral only");
+  cli::refuse_if(cut.cutter.helices_differ(), name + ": expected a cut with one helix angle");
   cli::refuse_if(!cut.feed_per_tooth_m, name + ": expected feed_per_tooth_mm and diameter_mm in the cut");
 }
 

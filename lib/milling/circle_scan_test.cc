@@ -8,6 +8,7 @@
 #include "base/units.h"
 #include "milling/circle_lanes.h"
 #include "milling/circle_reduction.h"
+#include "milling/cut_schedule.h"
 #include "milling/depth_scan.h"
 #include "milling/limits.h"
 #include "milling/milling_fixtures_test.h"

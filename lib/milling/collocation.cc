@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "milling/arc_polynomials.h"
+#include "milling/cut_schedule.h"
 #include "milling/piece_rule.h"
 
 namespace stablecut::milling {

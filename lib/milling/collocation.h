@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "milling/cutter.h"
+#include "milling/cut_schedule.h"
 #include "milling/structure.h"
 
 namespace stablecut::milling {

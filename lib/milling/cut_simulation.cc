@@ -141,6 +141,7 @@ SimulationResult simulate_cut(const TipStructure& structure, const Cutter& cutte
   result.growth = simulated_growth(structure, cutter, load, speed, request.depth_m);
   SimulationSteps steps = result.growth.steps;
   steps.in_cut = false;
+  steps.path = request.path;
   if (request.per_pitch) steps.longest_rad = longest_step_rad(cutter, *request.per_pitch);
   const SimulatedCut cut(structure, cutter, load, speed, request.depth_m, steps);
   const SimulationGrid& grid = cut.grid();

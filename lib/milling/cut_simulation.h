@@ -17,6 +17,7 @@ struct SimulationRequest {
   /// Begins at rest in the full cut, which is a blow; else on the motion that repeats, pushed aside.
   bool from_rest = false;
   double push = 1e-4;  ///< of that motion: small, since the linear verdict is one about small deviations
+  ToothPath path = ToothPath::kCircle;  ///< of the motion; the growth is that of circles
 };
 
 struct SimulationResult {

@@ -7,6 +7,7 @@
 #include "milling/limits.h"
 #include "milling/milling_fixtures_test.h"
 #include "milling/period.h"
+#include "milling/spectral.h"
 #include "milling/surface.h"
 #include "numerics/random.h"
 
@@ -271,4 +272,71 @@ TEST_CASE("a stiff tool with runout and unequal pitches cuts the chips of the me
       CHECK((result.mean_force_n - force).norm() < 2e-3 * force.norm());
     }
   }
+}
+
+namespace {
+
+// The mean force of a rigid tool whose teeth move on cycloids, from their geometry alone: on the ray from the
+// axis through a tooth the path of the tooth before it is looked for.
+ForceParts cycloid_force(const Cutter& cutter, double feed_m, double depth_m) {
+  constexpr int kTurns = 4000;
+  const double radius = cutter.diameter_m / 2, per_rad = feed_m * cutter.teeth / kTwoPi;
+  ForceParts sum = ForceParts::Zero();
+  for (int i = 0; i < kTurns; ++i) {
+    const double phi = cutter.entry_rad + (cutter.exit_rad - cutter.entry_rad) * (i + 0.5) / kTurns;
+    const double s = std::sin(phi), c = std::cos(phi);
+    // The tooth before passed the ray at phi + turn a pitch earlier, give or take: x to the side of the ray
+    // is 0.
+    double turn = 0, away = 0;
+    for (int step = 0; step < 20; ++step) {
+      const double x = per_rad * (turn - cutter.mean_pitch_rad()) + radius * std::sin(phi + turn);
+      const double y = radius * std::cos(phi + turn);
+      turn -= (x * c - y * s) / radius;
+      away = x * s + y * c;
+    }
+    const double chip = std::max(radius - away, 0.0);
+    const double along = cutter.kt_n_per_m2 * chip, across = cutter.kr_n_per_m2 * chip;
+    sum += ForceParts(-c * along - s * across, s * along - c * across, 0, along);
+  }
+  return sum * depth_m * (cutter.exit_rad - cutter.entry_rad) / kTurns / cutter.mean_pitch_rad();
+}
+
+}  // namespace
+
+TEST_CASE("teeth on cycloids cut the chips of cycloids") {
+  dynamics::ModalModel model = fixtures::oscillator({"x", "y"});
+  for (dynamics::Mode& mode : model.modes) mode.psi_l *= 1e-5;
+  const TipStructure stiff = tip_structure(model);
+  CuttingLoad load;
+  load.feed_per_tooth_m = 0.2e-3;
+  for (const bool up : {true, false}) {
+    Cutter cutter = fixtures::benchmark_cutter(up, 0.4, 3);
+    cutter.diameter_m = 8e-3;
+    SimulationRequest request{100, 1e-3, 48, 400, false};
+    const ForceParts circles = simulate_cut(stiff, cutter, load, request).mean_force_n;
+    request.path = ToothPath::kCycloid;
+    const ForceParts cycloids = simulate_cut(stiff, cutter, load, request).mean_force_n;
+    const ForceParts expected = cycloid_force(cutter, load.feed_per_tooth_m, 1e-3);
+    INFO(circles.transpose() << "; " << cycloids.transpose() << "; " << expected.transpose());
+    CHECK((circles - expected).norm() > 5e-3 * expected.norm());
+    CHECK((cycloids - expected).norm() < 0.1 * (circles - expected).norm());
+  }
+}
+
+TEST_CASE("helices that differ: simulated deviations grow as the spectral radius says") {
+  const TipStructure structure = tip_structure(fixtures::coupled_modes(5, 3));
+  int stable = 0;
+  for (const double immersion : {0.2, 1.0}) {
+    Cutter cutter = fixtures::benchmark_cutter(true, immersion, 4);
+    cutter.pitch_rad = {1.4, 1.65, 1.5, kTwoPi - 4.55};
+    cutter.tooth_lag_rad_per_m = {96, 121, 90, 130};
+    for (const double depth : {0.15e-3, 2e-3}) {
+      const double radius = spectral_radius(SpectralMap(structure, cutter, 120, 16), depth);
+      const SimulatedGrowth growth = simulated_growth(structure, cutter, kLoad, 120, depth);
+      INFO(immersion << ", " << depth << " m: " << growth.per_tooth << ", " << radius);
+      CHECK(std::abs(growth.per_tooth / radius - 1) < 1e-3);
+      stable += radius < 1;
+    }
+  }
+  CHECK(stable == 2);
 }

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "milling/cut_schedule.h"
 #include "milling/milling_fixtures_test.h"
 #include "milling/spectral.h"
 #include "numerics/legendre.h"

@@ -10,7 +10,8 @@
 
 namespace stablecut::milling {
 
-/// The force at one depth; a helical edge is straight ones one after the other.
+/// The force at one depth; a helical edge is straight ones one after the other. Where helices differ, runout
+/// is left out.
 class EdgeForce {
  public:
   EdgeForce(const Cutter& cutter, const CuttingLoad& load, double depth_m);
@@ -24,7 +25,7 @@ class EdgeForce {
   const std::vector<double>& breaks() const { return breaks_; }
   /// How far it is from a turn to the next break, or back to the one before; a period where there is none.
   double room(double turn_rad, bool after) const;
-  /// By how much the top of the edge lags; 0 for a straight one.
+  /// By how much the top of the edge lags; 0 for a straight one, and where helices differ.
   double lag_rad() const { return lag_rad_; }
   ForceParts mean() const { return depth_m_ * cycle_.mean(); }
   /// Coefficient of exp(i order 2 pi turn / period) in the force's Fourier series.
@@ -36,9 +37,23 @@ class EdgeForce {
   Peak peak() const;
 
  private:
+  // One of the edges whose helices differ: a chip that changes linearly over the depth, turns counted from
+  // the tip.
+  struct Edge {
+    double behind_rad, lag_rad;  // of the tip; of the top
+    TurningArc<4> at_tip, at_top;
+
+    TurningArc<4> at(double share) const;
+    ForceParts of_part(double from, double to, double turn_rad) const;
+  };
+
   double in_period(double turn_rad) const;
+  void set_edges(const Cutter& cutter, const CuttingLoad& load);
+  ForceParts of_edges(double turn_rad, double beside_rad) const;
+  void add_break(double turn_rad, double lag_rad);
 
   ForceCycle cycle_;
+  std::vector<Edge> edges_;  // empty where helices are alike
   double depth_m_, lag_rad_;
   std::vector<double> breaks_;
 };

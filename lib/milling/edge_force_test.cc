@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "base/error.h"
 #include "base/units.h"
 #include "milling/milling_fixtures_test.h"
 #include "numerics/random.h"
@@ -98,4 +99,63 @@ TEST_CASE("a published simulation's cut: the mean force of either way to turn") 
   CHECK(up.y() == Approx(35.677).epsilon(1e-4));
   CHECK(down.x() == Approx(39.326).epsilon(1e-4));
   CHECK(down.y() == Approx(149.883).epsilon(1e-5));
+}
+
+TEST_CASE("helices that differ: the sum of many straight teeth, each with the chip of its height") {
+  Cutter cutter = fixtures::benchmark_cutter(false, 0.7, 3);
+  cutter.pitch_rad = {1.9, 2.2, kTwoPi - 4.1};
+  cutter.tooth_lag_rad_per_m = {150, 0, 190};
+  const double depth = 5e-3;
+  const EdgeForce force(cutter, kLoad, depth);
+  CHECK(force.period_rad() == kTwoPi);
+  const auto straight_teeth = [&](double turn) {
+    ForceParts sum = ForceParts::Zero();
+    constexpr int kSlices = 20000;
+    for (int i = 0; i < kSlices; ++i) {
+      const double height = depth * (i + 0.5) / kSlices;
+      double behind = 0;
+      for (int j = 0; j < 3; ++j) {
+        const int before = (j + 2) % 3;
+        const double pitch = cutter.pitch_rad[before] +
+                             (cutter.tooth_lag_rad_per_m[j] - cutter.tooth_lag_rad_per_m[before]) * height;
+        double phi = turn - behind - cutter.tooth_lag_rad_per_m[j] * height;
+        phi -= kTwoPi * std::floor(phi / kTwoPi);
+        behind += cutter.pitch_rad[j];
+        if (phi < cutter.entry_rad || phi > cutter.exit_rad) continue;
+        const double s = std::sin(phi), c = std::cos(phi);
+        const double chip = kLoad.feed_per_tooth_m * 3 / kTwoPi * pitch * s;
+        const double along = cutter.kt_n_per_m2 * chip + kLoad.kte_n_per_m;
+        const double across = cutter.kr_n_per_m2 * chip + kLoad.kre_n_per_m;
+        sum += depth / kSlices *
+               ForceParts(-c * along - s * across, s * along - c * across, kLoad.kae_n_per_m, along);
+      }
+    }
+    return sum;
+  };
+  const double size = force.peak().force_n;
+  std::vector<Eigen::Matrix<std::complex<double>, 4, 1>> harmonic;
+  for (int k = 0; k <= 100; ++k) harmonic.push_back(force.harmonic(k));
+  for (const double turn : {0.1, 1.3, 2.6, 3.9, 5.2, -8.0}) {
+    INFO(turn);
+    ForceParts harmonics = harmonic[0].real();
+    CHECK((force.at(turn) - straight_teeth(turn)).norm() < 1e-3 * size);
+    for (int k = 1; k <= 100; ++k) harmonics += 2 * (harmonic[k] * std::polar(1.0, k * turn)).real();
+    CHECK((harmonics - force.at(turn)).norm() < 2e-2 * size);
+  }
+  CHECK((harmonic[0].real() - force.mean()).norm() < 1e-12 * size);
+
+  // Alike, they are one helix.
+  cutter.pitch_rad.clear();
+  cutter.tooth_lag_rad_per_m.clear();
+  cutter.lag_rad_per_m = 150;
+  const EdgeForce alike(cutter, kLoad, depth);
+  cutter.pitch_rad.assign(3, kTwoPi / 3);
+  cutter.tooth_lag_rad_per_m.assign(3, 150);
+  const EdgeForce listed(cutter, kLoad, depth);
+  for (const double turn : {0.1, 1.3, 2.6}) CHECK((alike.at(turn) - listed.at(turn)).norm() < 1e-10 * size);
+  CHECK(listed.peak().force_n == Approx(alike.peak().force_n).epsilon(1e-9));
+
+  // The second edge, 190 rad/m behind the first, is 1.9 rad behind it at the tip.
+  cutter.tooth_lag_rad_per_m = {190, 0, 150};
+  CHECK_THROWS_AS(EdgeForce(cutter, kLoad, 12e-3), NoAnswer);
 }

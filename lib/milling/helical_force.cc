@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "milling/cut_schedule.h"
 
 namespace stablecut::milling {
 namespace {

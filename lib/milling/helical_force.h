@@ -8,6 +8,7 @@
 
 #include "milling/circle_operator.h"
 #include "milling/collocation.h"
+#include "milling/cut_schedule.h"
 #include "milling/cutter.h"
 #include "milling/structure.h"
 #include "numerics/legendre.h"

@@ -9,6 +9,7 @@
 #include "milling/circle_operator.h"
 #include "milling/circle_reduction.h"
 #include "milling/collocation.h"
+#include "milling/cut_schedule.h"
 #include "milling/helical_force.h"
 #include "milling/helical_passages.h"
 #include "milling/spectral.h"

@@ -6,6 +6,7 @@
 
 #include "base/units.h"
 #include "milling/circle_reduction.h"
+#include "milling/cut_schedule.h"
 #include "milling/depth_scan.h"
 #include "milling/helical_force.h"
 #include "milling/limits.h"

@@ -7,6 +7,7 @@
 
 #include "base/units.h"
 #include "milling/circle_scan.h"
+#include "milling/cut_schedule.h"
 #include "milling/helical_limits.h"
 #include "milling/semi_discretization.h"
 #include "milling/spectral.h"

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "base/units.h"
+#include "milling/cut_schedule.h"
 #include "milling/depth_scan.h"
 #include "milling/semi_discretization.h"
 #include "milling/spectral.h"
@@ -26,6 +27,9 @@ constexpr double kConvergedByTooth = 3e-7;
 // The same where modes are out of reach: their ringing after each entry is left out.
 constexpr double kConvergedOutOfReach = 1e-5;
 constexpr int kMostPointsByTooth = 60;
+// The same where helices differ: the error of the discs falls with the square of their number.
+constexpr double kConvergedByDisc = 1e-4;
+constexpr int kMostPointsByDisc = 24;
 // More where other teeth enter or leave while one cuts, at places that are no ends of its arc.
 constexpr double kMoreTogether = 2;
 // An error from which on there is no answer.
@@ -139,6 +143,7 @@ PointPlan point_plan(const TipStructure& structure, const Cutter& cutter, double
   if (nodes > kMostPoints)
     throw no_answer_at(revolutions_per_s, "the fastest mode turns too often in one cut to be followed");
   const auto by_node = static_cast<int>(kFirstPoints + nodes);
+  if (cutter.helices_differ()) return {by_node, std::max(by_node, kMostPointsByDisc), kConvergedByDisc};
   if (!cutter.equal_pitch()) return {by_node, std::max(by_node, kMostPointsByTooth), kConvergedByTooth};
   if (cutter.changes_with_depth()) return {by_node, kMostPoints, kConverged};
   const double follow = followed(structure, cutter, schedule, revolutions_per_s, largest_depth_m);

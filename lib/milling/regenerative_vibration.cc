@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "base/units.h"
+#include "milling/cut_schedule.h"
 #include "milling/piece_rule.h"
 
 namespace stablecut::milling {

@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "milling/cut_schedule.h"
+
 namespace stablecut::milling {
 
 SemiDiscretizationMap::SemiDiscretizationMap(const TipStructure& structure, const Cutter& cutter,

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "milling/cut_schedule.h"
 #include "milling/milling_fixtures_test.h"
 #include "milling/spectral.h"
 

@@ -39,6 +39,7 @@ SimulatedCut::SimulatedCut(const TipStructure& structure, const Cutter& cutter, 
       grid_(simulation_grid(cutter, depth_m, steps)),
       turn_per_s_(kTwoPi * revolutions_per_s),
       feed_per_revolution_m_(load.feed_per_tooth_m * cutter.teeth * (1 + kGrazing)),
+      path_(steps.path),
       rate_(structure.lambda) {
   const ModesInCut modes = modes_in_cut(structure, cutter, revolutions_per_s);
   shape_ = modes.shape.topRows<2>();

@@ -86,13 +86,17 @@ class SimulatedCut {
   template <Kind kKind>
   double chip_of(const State& state, const SimulationTouch& touch, long period,
                  const Eigen::Vector2d& tip) const;
-  // How much nearer a place lies that was cut longer than a revolution ago than its number says: circles
-  // whose centers lie apart along the feed.
+  // How much nearer a place lies than its number says, since the circles' centers lie apart along the feed
+  // when it was cut and now. Circular paths know it of places that were cut longer than a revolution ago
+  // only. On cycloids the place was passed at another angle too, and the center has moved meanwhile.
   double relief(double travel, const SimulationTouch& touch, int number, const State& state) const {
-    const double apart = travel - state.travel[number] - feed_per_revolution_m_;
-    return apart > 0 && cutter_.diameter_m > 0
-               ? apart * apart * touch.cosine * touch.cosine / cutter_.diameter_m
-               : 0;
+    if (!(cutter_.diameter_m > 0)) return 0;
+    const bool cycloid = path_ == ToothPath::kCycloid;
+    const double apart = travel - state.travel[number] - (cycloid ? 0 : feed_per_revolution_m_);
+    if (!(apart > 0)) return 0;
+    const double across = apart * touch.cosine;
+    const double angle = cycloid ? 2 * across / cutter_.diameter_m : 0;
+    return across * across / cutter_.diameter_m - angle * feed_per_revolution_m_ / kTwoPi * touch.sine;
   }
   // `leaves`: where to remember what is left.
   template <Kind kKind>
@@ -116,6 +120,7 @@ class SimulatedCut {
   CuttingLoad load_;
   SimulationGrid grid_;
   double turn_per_s_, feed_per_revolution_m_;
+  ToothPath path_;
   double flank_n_s_per_m2_ = 0;  // process damping, across the cut
   Eigen::ArrayXcd rate_;         // [modes] lambda
   Eigen::Matrix2Xcd shape_, left_;

@@ -187,7 +187,7 @@ SimulatedGrowth simulated_growth(const TipStructure& structure, const Cutter& cu
   steps.longest_rad =
       longest_step_rad(cutter, std::max(kLeastSteps, static_cast<int>(std::ceil(kStepsPerWave * waves))));
   steps.discs = static_cast<int>(std::ceil(kFirstDiscs + kDiscsPerRadian * (fastest + 2) *
-                                                             std::abs(cutter.lag_rad_per_m) * depth_m / 2));
+                                                             cutter.largest_lag_rad_per_m() * depth_m / 2));
   steps.in_cut = true;
   const auto growth = [&] {
     SimulatedGrowth found =

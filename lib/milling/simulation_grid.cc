@@ -22,15 +22,15 @@ double place_of(const Cutter& cutter, int tooth) {
 
 // Gauss's heights, so that few discs are enough.
 void set_discs(const Cutter& cutter, double depth_m, int discs, SimulationGrid& grid) {
-  if (std::abs(cutter.lag_rad_per_m) * depth_m < kSameNode) {
+  if (cutter.largest_lag_rad_per_m() * depth_m < kSameNode) {
     grid.depth_m = {depth_m};
-    grid.lag_rad = {0};
+    grid.height_m = {0};
     return;
   }
   const numerics::GaussRule rule = numerics::gauss_legendre(discs);
   for (Eigen::Index i = 0; i < rule.node.size(); ++i) {
     grid.depth_m.push_back(depth_m * rule.weight[i] / 2);
-    grid.lag_rad.push_back(cutter.lag_rad_per_m * depth_m * (1 + rule.node[i]) / 2);
+    grid.height_m.push_back(depth_m * (1 + rule.node[i]) / 2);
   }
 }
 
@@ -45,9 +45,9 @@ void set_nodes(const Cutter& cutter, const SimulationSteps& steps, SimulationGri
   for (int tooth = 0; tooth < (cutter.equal_pitch() ? 1 : cutter.teeth); ++tooth) {
     const double place = place_of(cutter, tooth);
     const auto add = [&](double angle) { ends.push_back(wrapped(angle, grid.period_rad)); };
-    for (const double lag : grid.lag_rad) {
-      add(place + lag + cutter.entry_rad);
-      add(place + lag + cutter.exit_rad);
+    for (const double height : grid.height_m) {
+      add(place + cutter.lag_of(tooth) * height + cutter.entry_rad);
+      add(place + cutter.lag_of(tooth) * height + cutter.exit_rad);
     }
     add(place + cutter.exit_rad);
   }
@@ -57,8 +57,8 @@ void set_nodes(const Cutter& cutter, const SimulationSteps& steps, SimulationGri
   ends.push_back(grid.period_rad);
   const auto cuts = [&](double turn) {
     for (int tooth = 0; tooth < (cutter.equal_pitch() ? 1 : cutter.teeth); ++tooth) {
-      for (const double lag : grid.lag_rad) {
-        double phi = wrapped(turn - place_of(cutter, tooth) - lag, grid.period_rad);
+      for (const double height : grid.height_m) {
+        double phi = wrapped(turn - place_of(cutter, tooth) - cutter.lag_of(tooth) * height, grid.period_rad);
         for (; phi < cutter.exit_rad; phi += grid.period_rad)
           if (phi > cutter.entry_rad) return true;
       }
@@ -105,8 +105,8 @@ bool in_cut(const Cutter& cutter, double phi) {
 // With equal pitch all teeth pass the nodes at the same angles: the surface is known there.
 void touch_with_equal_pitch(const Cutter& cutter, SimulationGrid& grid) {
   const double pitch = grid.period_rad;
-  for (int disc = 0; disc < static_cast<int>(grid.lag_rad.size()); ++disc) {
-    const double lag = grid.lag_rad[disc];
+  for (int disc = 0; disc < static_cast<int>(grid.height_m.size()); ++disc) {
+    const double lag = cutter.lag_rad_per_m * grid.height_m[disc];
     const auto from = static_cast<int>(std::floor((cutter.entry_rad + lag) / pitch)) - 1;
     const auto to = static_cast<int>(std::ceil((cutter.exit_rad + lag) / pitch));
     const int base = grid.disc_from.back();
@@ -184,15 +184,15 @@ void touch_with_unequal_pitch(const Cutter& cutter, SimulationGrid& grid) {
   const int parts =
       std::max(kLeastStepsOfArc, static_cast<int>(std::ceil(arc * grid.steps() / grid.period_rad)));
   const double step = arc / parts;
-  for (int disc = 0; disc < static_cast<int>(grid.lag_rad.size()); ++disc) {
+  for (int disc = 0; disc < static_cast<int>(grid.height_m.size()); ++disc) {
     const int base = grid.disc_from.back(), count = parts + 1;
     for (int i = 0; i < count; ++i) grid.surface_at.push_back(cutter.entry_rad + i * step);
     grid.disc_from.push_back(base + count);
     for (int tooth = 0; tooth < cutter.teeth; ++tooth) {
       std::vector<SimulationTouch> pass;
       for (int node = 0; node < grid.steps(); ++node) {
-        const double phi =
-            wrapped(grid.turn_rad[node] - place_of(cutter, tooth) - grid.lag_rad[disc], kTwoPi);
+        const double lag = cutter.lag_of(tooth) * grid.height_m[disc];
+        const double phi = wrapped(grid.turn_rad[node] - place_of(cutter, tooth) - lag, kTwoPi);
         if (in_cut(cutter, phi)) pass.push_back(touch_at(cutter, node, tooth, disc, phi));
       }
       touch_in_pass(cutter, step, base, count, pass, grid);
@@ -211,6 +211,7 @@ double longest_step_rad(const Cutter& cutter, int per_pitch) {
 }
 
 SimulationGrid simulation_grid(const Cutter& cutter, double depth_m, const SimulationSteps& steps) {
+  cutter.check_edges_apart(depth_m);
   SimulationGrid grid;
   const bool equal = cutter.equal_pitch();
   grid.period_rad = equal ? cutter.mean_pitch_rad() : kTwoPi;

@@ -8,11 +8,15 @@
 
 namespace stablecut::milling {
 
-/// How fine a simulation is.
+/// How teeth move as the tool is fed: on circles, each a feed beside the one before, or on cycloids.
+enum class ToothPath { kCircle, kCycloid };
+
+/// How fine a simulation is, and of which paths.
 struct SimulationSteps {
   double longest_rad = 0;  ///< of turn; shorter where a tooth enters or leaves between two
   int discs = 1;           ///< straight ones that stand for a helical edge
   bool in_cut = false;     ///< pieces of the period in which nothing cuts are one step
+  ToothPath path = ToothPath::kCircle;
 };
 
 /// One tooth's disc at a node of the grid.
@@ -45,7 +49,7 @@ struct SimulationGrid {
   int passes = 1;                  ///< teeth that pass in a period
   std::vector<double> turn_rad;    ///< [steps + 1]
   std::vector<double> depth_m;     ///< [discs] of each
-  std::vector<double> lag_rad;     ///< [discs]
+  std::vector<double> height_m;    ///< [discs] of each above the tip
   std::vector<double> surface_at;  ///< phi of each number of the surface, disc after disc
   std::vector<double> surface_within;    ///< the same of each number of the surface as `within` of a touch
   std::vector<int> disc_from;            ///< [discs + 1] where a disc's part of it begins

@@ -4,6 +4,7 @@
 #include <complex>
 
 #include "base/units.h"
+#include "milling/cut_schedule.h"
 
 namespace stablecut::milling {
 namespace {
@@ -69,8 +70,8 @@ SpectralMap::SpectralMap(const TipStructure& structure, const CutSchedule& sched
       fixed_(collocate(structure, schedule, revolutions_per_s, points)) {}
 
 Collocation SpectralMap::at_depth(double depth_m) const {
-  return collocate(structure(), cut_schedule(cutter_, revolutions_per_s_, depth_m), revolutions_per_s_,
-                   points_, Rows::kByNode);
+  return collocate(structure(), cut_schedule(cutter_, revolutions_per_s_, depth_m, points_),
+                   revolutions_per_s_, points_, Rows::kByNode);
 }
 
 Eigen::MatrixXd SpectralMap::monodromy(double depth_m) const {

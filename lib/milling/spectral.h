@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "milling/collocation.h"
-#include "milling/cutter.h"
+#include "milling/cut_schedule.h"
 #include "milling/floquet.h"
 
 namespace stablecut::milling {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/units.h"
+#include "milling/cut_schedule.h"
 #include "milling/milling_fixtures_test.h"
 #include "milling/semi_discretization.h"
 #include "numerics/legendre.h"

@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "base/units.h"
+#include "milling/cut_schedule.h"
 
 namespace stablecut::milling {
 namespace {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/units.h"
+#include "milling/cut_schedule.h"
 #include "numerics/exponential_moments.h"
 #include "numerics/legendre.h"
 

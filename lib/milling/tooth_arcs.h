@@ -3,7 +3,7 @@
 #pragma once
 
 #include "milling/circle_operator.h"
-#include "milling/cutter.h"
+#include "milling/cut_schedule.h"
 #include "milling/structure.h"
 
 namespace stablecut::milling {

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """arcs_of_a_period_picture.py [FILE]: lib/milling/arcs_of_a_period.svg, where teeth are in cut and where pieces end.
 
-Four cutters over one period, by the rules of lib/milling/cutter.cc: a piece ends where any part of a tooth in it enters or
+Four cutters over one period, by the rules of lib/milling/cut_schedule.cc: a piece ends where any part of a tooth in it enters or
 leaves. Needs gnuplot.
 """
 import math

@@ -64,6 +64,30 @@ void read_engagement(const Node& root, milling::Cutter& cutter) {
   cutter.exit_rad = radians_from_degrees(exit);
 }
 
+// One angle, or one for each tooth.
+void read_helix(const Node& helix, const Node& root, milling::Cutter& cutter) {
+  const Eigen::VectorXd angles =
+      helix.json().is_array() ? helix.numbers(kHelix) : Eigen::VectorXd::Constant(1, helix.number(kHelix));
+  if (helix.json().is_array() && angles.size() != cutter.teeth)
+    helix.fail("expected " + std::to_string(cutter.teeth) + " angles, one for each tooth");
+  if (angles.isZero(0)) return;
+  if (!root.has("diameter_mm")) helix.fail("expected diameter_mm beside a helix angle");
+  std::vector<double> lags;
+  for (const double angle : angles) {
+    lags.push_back(2 * std::tan(radians_from_degrees(angle)) / cutter.diameter_m);
+    if (std::abs(lags.back()) > kMostLag)
+      helix.fail("expected an edge that turns by less than 100 rad in a mm of depth");
+  }
+  if ((angles.array() == angles[0]).all()) {
+    cutter.lag_rad_per_m = lags[0];
+    return;
+  }
+  for (const char* other : {"corner_radius_mm", "runout_um"})
+    if (root.has(other)) helix.fail(std::string("expected one angle where there is ") + other);
+  cutter.tooth_lag_rad_per_m = lags;
+  if (cutter.equal_pitch()) cutter.pitch_rad.assign(lags.size(), cutter.mean_pitch_rad());
+}
+
 // Pitches that are equal need no schedule for each tooth.
 void read_edges(const Node& root, milling::Cutter& cutter) {
   if (const auto lead = root.find("lead_angle_deg"); lead && lead->number(kLead) != 90)
@@ -83,12 +107,7 @@ void read_edges(const Node& root, milling::Cutter& cutter) {
       for (const double angle : angles) cutter.pitch_rad.push_back(kTwoPi * angle / angles.sum());
     }
   }
-  if (const auto helix = root.find("helix_deg"); helix && helix->number(kHelix) != 0) {
-    if (!root.has("diameter_mm")) helix->fail("expected diameter_mm beside a helix angle");
-    cutter.lag_rad_per_m = 2 * std::tan(radians_from_degrees(helix->number(kHelix))) / cutter.diameter_m;
-    if (std::abs(cutter.lag_rad_per_m) > kMostLag)
-      helix->fail("expected an edge that turns by less than 100 rad in a mm of depth");
-  }
+  if (const auto helix = root.find("helix_deg")) read_helix(*helix, root, cutter);
 }
 
 void read_process_damping(const Node& root, milling::Cutter& cutter) {
