@@ -105,20 +105,32 @@ struct Pairing {
   std::size_t from, to;
 };
 
-// Those that fit best first. A branch without a slope at either end is in none.
+// Those that fit best first, until every branch with a slope has one. A branch without a slope at either end is in
+// none.
 std::vector<Pairing> pairings(const Place& a, const Place& b) {
+  const auto with_slope = [](const Place& place) {
+    return std::count_if(place.branches.begin(), place.branches.end(),
+                         [](const Branch& branch) { return branch.has_slope; });
+  };
+  auto left = with_slope(a) + with_slope(b);
   std::vector<Pairing> all, chosen;
+  all.reserve(a.branches.size() * b.branches.size());
   for (std::size_t i = 0; i < a.branches.size(); ++i) {
     for (std::size_t j = 0; j < b.branches.size(); ++j) {
       if (a.branches[i].has_slope || b.branches[j].has_slope)
         all.push_back({curve_between(a, i, b, j).error, i, j});
     }
   }
-  std::sort(all.begin(), all.end(), [](const Pairing& x, const Pairing& y) { return x.error < y.error; });
+  // Few are taken of many.
+  const auto worse = [](const Pairing& x, const Pairing& y) { return x.error > y.error; };
+  std::make_heap(all.begin(), all.end(), worse);
   std::vector<bool> used_a(a.branches.size(), false), used_b(b.branches.size(), false);
-  for (const Pairing& pair : all) {
+  for (auto end = all.end(); left > 0 && end != all.begin();) {
+    std::pop_heap(all.begin(), end, worse);
+    const Pairing& pair = *--end;
     if (used_a[pair.from] || used_b[pair.to]) continue;
     used_a[pair.from] = used_b[pair.to] = true;
+    left -= a.branches[pair.from].has_slope + b.branches[pair.to].has_slope;
     chosen.push_back(pair);
   }
   return chosen;
