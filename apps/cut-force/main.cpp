@@ -127,6 +127,7 @@ class CutForce : public cli::Tool {
     document::CutForceDocument document;
     document.cut = input.document;
     document.cut.erase("format");
+    document.cut.erase("label");
     document.cut.erase("provenance");
     document.diameter_m = cut.cutter.diameter_m;
     document.depth_mm = depth_.value_or(kDefaultDepthMm);

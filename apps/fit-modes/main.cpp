@@ -195,7 +195,7 @@ class FitModes : public cli::Tool {
     cli::refuse_if(frf_output_.synthesizes() || frf_output_.converts(),
                    "--compare, --track: expected without --synthesize and --convert");
     const document::Input table = read_main_input(cli::InputForm::kJson);
-    write_document(main_output(), tables_.result(table, read_input(tables_.other(), cli::InputForm::kJson)));
+    write_document(main_output(), tables_.result(table, read_reference(tables_.other())));
   }
 
   // ---- frequency responses instead of a fit ----

@@ -84,6 +84,7 @@ document::Json CutOptions::as_used(const Range& speed_rpm, const Range& depth_mm
   cut_.cutter.check_edges_apart(metres_from_mm(depth_mm.to));
   document::Json used = document_;
   used.erase("format");
+  used.erase("label");
   used.erase("provenance");
   const auto range = [](const Range& r) {
     return document::Json{{"from", r.from}, {"to", r.to}, {"count", r.count}};

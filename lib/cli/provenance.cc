@@ -6,6 +6,8 @@
 #include <array>
 #include <stdexcept>
 
+#include "document/text/label.h"
+
 namespace stablecut::cli {
 
 std::string sha256(const std::string& bytes) {
@@ -53,13 +55,19 @@ bool is_provenance(const document::Json& value) {
 }  // namespace
 
 ProvenanceInput provenance_input(const document::Source& source, const document::Json& document) {
-  ProvenanceInput input{source.name, sha256(source.text), nullptr};
+  ProvenanceInput input{source.name, sha256(source.text), nullptr, document::label_of(document)};
   if (document.is_object()) {
     if (const auto found = document.find("provenance"); found != document.end() && is_provenance(*found)) {
       input.from = *found;
     }
   }
   return input;
+}
+
+std::string inherited_label(const std::vector<ProvenanceInput>& inputs) {
+  std::vector<std::string> labels;
+  for (const ProvenanceInput& input : inputs) labels.push_back(input.label);
+  return document::joined_labels(labels);
 }
 
 document::Json provenance(const std::string& tool, const std::string& version,

@@ -191,6 +191,12 @@ document::Input Tool::read_input(const std::string& path, InputForm form) {
   return input;
 }
 
+document::Input Tool::read_reference(const std::string& path) {
+  document::Input input = read_input(path, InputForm::kJson);
+  inputs_.back().label.clear();
+  return input;
+}
+
 std::string Tool::table_text(const document::Json& document) const {
   const std::vector<document::FlatTable> tables = document::flat_tables(document);
   if (csv_.empty()) return document::aligned_text(tables, kMostShown);
@@ -203,6 +209,10 @@ std::string Tool::table_text(const document::Json& document) const {
 }
 
 void Tool::write_document(const std::string& path, document::Json document) {
+  const std::string label = !label_.empty()              ? label_
+                            : document.contains("label") ? ""
+                                                         : inherited_label(inputs_);
+  if (!label.empty()) document["label"] = label;
   if (as_table() && path == output_) {
     add_output(path, table_text(document));
     return;
@@ -278,6 +288,8 @@ int Tool::parse(int argc, char** argv) {
   add_file_option(app_, "-o,--output", output_, "Output file, - for standard output")->capture_default_str();
   setup(app_);
   begin_group(app_, "Every tool");
+  app_.add_option("--label", label_, "What pictures call the result (default: the labels of the inputs)")
+      ->type_name("TEXT");
   not_in_provenance(app_.add_flag("--quiet", quiet_, "No warnings, no progress bar"));
   const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
   threads_ = static_cast<int>(cores);

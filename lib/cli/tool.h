@@ -47,9 +47,11 @@ class Tool {
   const std::string& main_input() const { return input_; }
   /// A part of the tool's own result: not an input of the document.
   document::Input read_part(const std::string& path);
+  /// What the main input is compared with: its label does not become the result's.
+  document::Input read_reference(const std::string& path);
 
-  /// Adds provenance and takes the document as an output; "-" is standard output. The main output as a table
-  /// where --as-table or --csv asks for it.
+  /// Adds label and provenance and takes the document as an output; "-" is standard output. The main output
+  /// as a table where --as-table or --csv asks for it.
   void write_document(const std::string& path, document::Json document);
   /// Takes a text that is no document, without provenance, as an output.
   void write_text(const std::string& path, std::string text);
@@ -85,6 +87,7 @@ class Tool {
   bool without_provenance_ = false;
   bool table_ = false;
   std::string csv_;
+  std::string label_;
   int threads_ = 0;
   CLI::Option* schema_option_ = nullptr;
   std::vector<const CLI::Option*> silent_options_;

@@ -62,7 +62,7 @@ def names(documents, paths):
     """What the documents are called: by their labels, else their files; by more of the path where two would be called the same."""
     found = [document.label for document in documents]
     parts = [pathlib.PurePath(path).with_suffix("").parts for path in paths]
-    for depth in range(2, max(map(len, parts)) + 1):
+    for depth in range(1, max(map(len, parts)) + 1):
         found = ["/".join(own[-depth:]) if found.count(name) > 1 else name for name, own in zip(found, parts)]
     return [f"{name} ({found[:i].count(name) + 1})" if found.count(name) > 1 else name for i, name in enumerate(found)]
 

@@ -325,8 +325,8 @@ class AssemblyReader {
 
 Node checked_root(const Json& document, const Source& source) {
   const Node root = document_root(document, source, "assembly");
-  root.check_names({"format", "frequency_hz", "beam_theory", "materials", "tool", "holder", "joint",
-                    "sensor_mass_g", "provenance"});
+  root.check_document_names(
+      {"frequency_hz", "beam_theory", "materials", "tool", "holder", "joint", "sensor_mass_g"});
   return root;
 }
 

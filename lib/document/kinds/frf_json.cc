@@ -123,8 +123,7 @@ Json complex_series(const Eigen::VectorXcd& values) {
 dynamics::FrequencyResponse frf_from_json(const Json& document, const Source& source,
                                           const std::string& pointer) {
   const Node root = document_root(document, source, "frf", pointer);
-  root.check_names({"format", "quantity", "frequency_hz", "h", "covariances", "window_decay_per_s", "holder",
-                    "provenance"});
+  root.check_document_names({"quantity", "frequency_hz", "h", "covariances", "window_decay_per_s", "holder"});
   dynamics::FrequencyResponse frf;
   frf.quantity = quantity_from_name(root.at("quantity").word({"receptance", "mobility", "accelerance"}));
   const Node frequency = root.at("frequency_hz");

@@ -38,7 +38,7 @@ Eigen::Vector3d measured(const Node& node, const std::array<bool, 3>& components
 LoadSamplesDocument load_samples_from_json(const Json& document, const Source& source,
                                            const robot::Robot& robot, const std::array<bool, 3>& components) {
   const Node root = document_root(document, source, "load-samples");
-  root.check_names({"format", "frame", "samples", "provenance"});
+  root.check_document_names({"frame", "samples"});
   if (const auto frame = root.find("frame")) frame->word({"base"});
   LoadSamplesDocument result;
   for (const Node& item : root.at("samples").items(1)) {

@@ -117,7 +117,7 @@ Json deviation_to(const Eigen::VectorXd& deviation, Eigen::Index dofs) {
 dynamics::ModalModel modal_table_from_json(const Json& document, const Source& source,
                                            const std::string& pointer) {
   const Node root = document_root(document, source, "modal-table", pointer);
-  root.check_names({"format", "dofs", "modes", "fit", "provenance"});
+  root.check_document_names({"dofs", "modes", "fit"});
   dynamics::ModalModel model;
   std::vector<double> sign;  // of "-x"
   for (const Node& dof : root.at("dofs").items(1)) {

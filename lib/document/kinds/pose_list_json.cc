@@ -6,7 +6,7 @@ namespace stablecut::document {
 
 PoseListDocument pose_list_from_json(const Json& document, const Source& source) {
   const Node root = document_root(document, source, "pose-list");
-  root.check_names({"format", "poses", "provenance"});
+  root.check_document_names({"poses"});
   PoseListDocument list;
   for (const Node& item : root.at("poses").items(1)) {
     item.check_names({"name", "joints_deg"});

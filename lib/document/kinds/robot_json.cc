@@ -107,8 +107,8 @@ void check_coupled_ranges(const Node& joint_node, const robot::Joint& joint) {
 
 robot::Robot robot_from_json(const Json& document, const Source& source) {
   const Node root = document_root(document, source, "robot");
-  root.check_names({"format", "name", "convention", "joints", "flange", "tool", "base", "coupling",
-                    "base_capsules", "keep_out_radius_mm", "provenance"});
+  root.check_document_names({"name", "convention", "joints", "flange", "tool", "base", "coupling",
+                             "base_capsules", "keep_out_radius_mm"});
   root.at("convention").word({"modified-dh"});
   robot::Robot robot;
   if (const auto name = root.find("name")) name->text();

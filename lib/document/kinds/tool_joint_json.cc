@@ -27,9 +27,8 @@ Json estimate_to_json(const receptance::JointEstimate& estimate, receptance::Joi
 }
 
 receptance::ToolJoint joint_at(const Node& node) {
-  node.check_names({"format", "direction", "lines", "band_hz", "k1_n_per_m", "c1_n_s_per_m", "k2_n_m_per_rad",
-                    "c2_n_m_s_per_rad", "std", "identifiable", "at_bound", "residual", "objective",
-                    "provenance"});
+  node.check_document_names({"direction", "lines", "band_hz", "k1_n_per_m", "c1_n_s_per_m", "k2_n_m_per_rad",
+                             "c2_n_m_s_per_rad", "std", "identifiable", "at_bound", "residual", "objective"});
   return tool_joint_from(node);
 }
 
@@ -66,7 +65,7 @@ ToolJoints tool_joints_from_json(const Json& document, const Source& source) {
     const auto direction = root.find("direction");
     return {{joint, joint}, direction ? direction->word({"x", "y"}) : ""};
   }
-  root.check_names({"format", "lines", "band_hz", "x", "y", "provenance"});
+  root.check_document_names({"lines", "band_hz", "x", "y"});
   return {{joint_at(root.at("x")), joint_at(root.at("y"))}, ""};
 }
 

@@ -27,7 +27,7 @@ ToolPathDocument in_base_frame(robot::ToolPath path, const std::optional<Eigen::
 ToolPathDocument tool_path_from_json(const Json& document, const Source& source,
                                      const ToolPathDefaults& defaults) {
   const Node root = document_root(document, source, "tool-path");
-  root.check_names({"format", "frame", "speed_mm_per_s", "points", "label", "provenance"});
+  root.check_document_names({"frame", "speed_mm_per_s", "points"});
   std::optional<Eigen::Isometry3d> frame = defaults.frame;
   if (const auto given = root.find("frame")) {
     if (defaults.frame) given->fail("expected the workpiece's frame from one place only");

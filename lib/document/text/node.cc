@@ -53,7 +53,15 @@ Node Node::at(std::string_view name) const {
                   "missing: expected this field");
 }
 
-void Node::check_names(std::initializer_list<std::string_view> known) const {
+void Node::check_names(std::initializer_list<std::string_view> known) const { check_known(known); }
+
+void Node::check_document_names(std::initializer_list<std::string_view> known) const {
+  std::vector<std::string_view> all = {"format", "label", "provenance"};
+  all.insert(all.end(), known.begin(), known.end());
+  check_known(all);
+}
+
+void Node::check_known(const std::vector<std::string_view>& known) const {
   if (!value_->is_object()) fail("expected an object");
   for (const auto& [name, unused] : value_->items()) {
     if (std::find(known.begin(), known.end(), name) != known.end() || name.starts_with("x_")) continue;
@@ -150,6 +158,7 @@ Node document_root(const Json& value, const Source& source, std::string_view kin
   const std::string format = root.at("format").text();
   const std::string wanted = "stablecut/" + std::string(kind) + "/1";
   if (format != wanted) root.at("format").fail("expected \"" + wanted + "\"");
+  if (const auto label = root.find("label")) label->text();
   return root;
 }
 

@@ -43,6 +43,8 @@ class Node {
   /// Checks this object's names: one that is not known is an error that names the nearest known one, unless
   /// it begins with x_. `known` must not be empty.
   void check_names(std::initializer_list<std::string_view> known) const;
+  /// The same for a document's root, which may have `format`, `label` and `provenance` besides.
+  void check_document_names(std::initializer_list<std::string_view> known) const;
 
   double number(const Bound& bound = kAnyNumber) const;
   int integer(int least, int most) const;
@@ -65,13 +67,15 @@ class Node {
   [[noreturn]] void fail(const std::string& expected) const;
 
  private:
+  void check_known(const std::vector<std::string_view>& known) const;
+
   const Json* value_;
   const Source* source_;
   std::string pointer_;
 };
 
-/// The document's root after checking that it is an object of the kind, `stablecut/<kind>/1`. A document
-/// inside another has a pointer there.
+/// The document's root after checking that it is an object of the kind, `stablecut/<kind>/1`, and that its
+/// label, if it has one, is a text. A document inside another has a pointer there.
 Node document_root(const Json& value, const Source& source, std::string_view kind, std::string pointer = "");
 
 }  // namespace stablecut::document

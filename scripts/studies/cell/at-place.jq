@@ -2,6 +2,6 @@
 # frequency grows with the root of the stiffness, psi_R psi_L with the inverse of that root.
 ($poses[0].evaluated | map({key: .name, value: (.principal_stiffness_n_per_m | min)}) | from_entries) as $weakest
 | ($weakest[$place] / $weakest.near | sqrt) as $factor
-| .modes |= map(if .frequency_hz < 200 then
+| .label = $place | .modes |= map(if .frequency_hz < 200 then
     .frequency_hz *= $factor | .psi_r |= map(map(. / ($factor | sqrt))) | .psi_l |= map(map(. / ($factor | sqrt)))
   else . end)
