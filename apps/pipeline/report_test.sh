@@ -77,7 +77,7 @@ refused 64 '^report: expected documents' "$report"
 refused 64 '^report: --nonsense: unknown option' "$report" --nonsense
 refused 64 '^report: -o: expected a value' "$report" lobes.json -o
 refused 64 '^report: -: expected standard input once' "$report" - - </dev/null
-refused 65 '^report: <stdin>: not JSON' "$report" - </dev/null
+refused 65 '^report: <stdin>: empty input: expected a JSON document$' "$report" - </dev/null
 refused 66 '^report: missing.json: cannot be read' "$report" missing.json
 refused 73 '^report: none/x.html: cannot be created' "$report" lobes.json -o none/x.html
 echo '{"format": "stablecut/nonsense/1"}' >kind.json

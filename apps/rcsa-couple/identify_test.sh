@@ -49,6 +49,14 @@ rcsa-couple --identify stiff.json "$assembly" -o stiff-found.json 2>log
 check_jq "stiffness yes, damping no" stiff-found.json '.identifiable == [true, false, true, false]'
 check "and says so" grep -Eq 'c1 (is not identifiable: its standard deviation is [0-9]+ %|lies at its bound)' log
 
+# A rigid joint: nothing can be told, and no numbers come. With bounds that somebody chose, one that lies at them is an answer.
+jq '.joint = "rigid" | .frequency_hz = {from: 100, to: 2000, count: 200}' "$data/liu-assembly.json" >rigid-assembly.json
+rcsa-couple rigid-assembly.json -o rigid-tip.json
+refused 1 "^rcsa-couple: x and y: the measured tip, rigid-tip.json, does not determine any" \
+  rcsa-couple --identify rigid-tip.json rigid-assembly.json
+rcsa-couple --quiet --identify rigid-tip.json rigid-assembly.json --bounds k1=1e3:1e10 -o chosen.json
+check_jq "a chosen bound" chosen.json '.x | .at_bound[0] and .k1_n_per_m == 1e10'
+
 # Lines that claim to be sure (a coherence rounded to 1) do not outweigh the others.
 jq '.h[] |= (([.re, .im] | transpose | map(.[0] * .[0] + .[1] * .[1]) | add / length * 1e-4) as $v
   | .variance = [range(.re | length) | if . % 100 == 7 then 0 else $v end])' "$data/carbide-tap.json" >sure.json

@@ -28,8 +28,6 @@
 namespace stablecut {
 namespace {
 
-constexpr std::array<const char*, 2> kDirections = {"x", "y"};
-
 class RcsaCouple : public cli::Tool {
  public:
   RcsaCouple()
@@ -190,15 +188,7 @@ class RcsaCouple : public cli::Tool {
                                                           : receptance::JointObjective::kComplex;
     const receptance::IdentifiedJoints joints =
         receptance::identify_joints(document.assembly, tip, bounds_, objective, threads());
-    for (std::size_t d = 0; d < 2; ++d) {
-      if (!joints.estimate[d] || (d == 1 && joints.one_for_both)) continue;
-      for (const auto& finding : receptance::findings_of(*joints.estimate[d], objective)) {
-        const std::string text =
-            words_of(finding, joints.one_for_both ? "x and y" : kDirections[d], identify_path_);
-        if (is_failure(finding)) throw NoAnswer(text);
-        warn(text);
-      }
-    }
+    for (const std::string& text : warnings_of(joints, bounds_, objective, identify_path_)) warn(text);
     write_document(main_output(),
                    document::tool_joint_to_json({joints.estimate, objective, lines, measured.frequency_hz[0],
                                                  measured.frequency_hz[lines - 1]}));

@@ -1,7 +1,9 @@
 #include "words.h"
 
+#include <algorithm>
 #include <vector>
 
+#include "base/error.h"
 #include "base/number_text.h"
 #include "base/units.h"
 #include "option_values.h"
@@ -33,6 +35,30 @@ std::string limits_text(const receptance::HolderQuality& quality, std::size_t li
   return text;
 }
 
+std::string words_of(const receptance::JointFinding& finding, const std::string& direction,
+                     const std::string& tap) {
+  using Kind = receptance::JointFinding::Kind;
+  const std::string name = direction + ": " + kJointNames[finding.value];
+  switch (finding.kind) {
+    case Kind::kUnexplained:
+      return direction + ": the best joint leaves " + percent_text(finding.number) +
+             " of the measured tip, " + tap + ", unexplained: are tool, holder and units right?";
+    case Kind::kNothingTold:
+      return direction + ": the measured tip, " + tap +
+             ", does not determine any of the joint's values: it moves no mode of this band, or is too stiff "
+             "to be seen";
+    case Kind::kPoorFit:
+      return direction + ": the best joint leaves " + percent_text(finding.number) +
+             " of the measured tip unexplained";
+    case Kind::kAtBound:
+      return name + " lies at its bound, " + number_text(finding.number);
+    case Kind::kNotIdentifiable:
+      return name + " is not identifiable: its standard deviation is " + percent_text(finding.number) +
+             " of its value";
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string words_of(const document::HolderFinding& finding) {
@@ -52,31 +78,28 @@ std::string words_of(const document::HolderFinding& finding) {
   return "";
 }
 
-bool is_failure(const receptance::JointFinding& finding) {
-  return finding.kind == receptance::JointFinding::Kind::kUnexplained ||
-         finding.kind == receptance::JointFinding::Kind::kNothingTold;
-}
-
-std::string words_of(const receptance::JointFinding& finding, const std::string& direction,
-                     const std::string& tap) {
+std::vector<std::string> warnings_of(const receptance::IdentifiedJoints& joints,
+                                     const receptance::JointBounds& bounds,
+                                     receptance::JointObjective objective, const std::string& tap) {
   using Kind = receptance::JointFinding::Kind;
-  const std::string name = direction + ": " + kJointNames[finding.value];
-  switch (finding.kind) {
-    case Kind::kUnexplained:
-      return direction + ": the best joint leaves " + percent_text(finding.number) +
-             " of the measured tip, " + tap + ", unexplained: are tool, holder and units right?";
-    case Kind::kNothingTold:
-      return direction + ": the measured tip, " + tap + ", does not determine any of the joint's values";
-    case Kind::kPoorFit:
-      return direction + ": the best joint leaves " + percent_text(finding.number) +
-             " of the measured tip unexplained";
-    case Kind::kAtBound:
-      return name + " lies at its bound, " + number_text(finding.number);
-    case Kind::kNotIdentifiable:
-      return name + " is not identifiable: its standard deviation is " + percent_text(finding.number) +
-             " of its value";
+  bool told = false;
+  std::string untold;
+  std::vector<std::string> warnings;
+  for (std::size_t d = 0; d < 2; ++d) {
+    if (!joints.estimate[d] || (d == 1 && joints.one_for_both)) continue;
+    const std::string direction = joints.one_for_both ? "x and y" : d == 0 ? "x" : "y";
+    const auto findings = receptance::findings_of(*joints.estimate[d], bounds, objective);
+    told = told || std::none_of(findings.begin(), findings.end(),
+                                [](const auto& finding) { return finding.kind == Kind::kNothingTold; });
+    for (const auto& finding : findings) {
+      const std::string text = words_of(finding, direction, tap);
+      if (finding.kind == Kind::kUnexplained) throw NoAnswer(text);
+      if (finding.kind == Kind::kNothingTold && untold.empty()) untold = text;
+      warnings.push_back(text);
+    }
   }
-  return "";
+  if (!told) throw NoAnswer(untold);
+  return warnings;
 }
 
 }  // namespace stablecut

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace stablecut::cli {
@@ -12,8 +13,18 @@ using std::chrono::milliseconds;
 constexpr milliseconds kSilence{500};
 constexpr milliseconds kBetween{100};
 constexpr int kWidth = 40;
+constexpr double kLeastShare = 0.02;
 
 }  // namespace
+
+std::string time_left(double share, std::chrono::duration<double> elapsed) {
+  if (!(share >= kLeastShare) || share > 1) return "";
+  const auto seconds = static_cast<long>(std::ceil(elapsed.count() * (1 - share) / share));
+  const long minutes = (seconds + 30) / 60;
+  if (seconds < 60) return std::to_string(seconds) + " s left";
+  if (minutes < 60) return std::to_string(minutes) + " min left";
+  return std::to_string(minutes / 60) + " h " + std::to_string(minutes % 60) + " min left";
+}
 
 ProgressBar::ProgressBar(std::string label, bool wanted)
     : label_(std::move(label)),
@@ -32,9 +43,10 @@ void ProgressBar::show(double share) {
   last_ = now;
   drawn_ = true;
   const int filled = std::clamp(static_cast<int>(share * kWidth), 0, kWidth);
-  std::fprintf(stderr, "\r%s [%.*s%*s] %3d %%", label_.c_str(), filled,
-               "########################################", kWidth - filled, "",
-               static_cast<int>(share * 100));
+  const std::string left = time_left(share, now - started_);
+  std::fprintf(stderr, "\r%s [%.*s%*s] %3d %%%s%s\033[K", label_.c_str(), filled,
+               "########################################", kWidth - filled, "", static_cast<int>(share * 100),
+               left.empty() ? "" : ", ", left.c_str());
 }
 
 }  // namespace stablecut::cli

@@ -19,6 +19,7 @@
 #include "cli/completion.h"
 #include "cli/exit_status.h"
 #include "cli/streams.h"
+#include "cli/summary.h"
 #include "document/text/data_error.h"
 #include "document/text/flat_table.h"
 #include "document/text/plain_text.h"
@@ -213,6 +214,7 @@ void Tool::write_document(const std::string& path, document::Json document) {
                             : document.contains("label") ? ""
                                                          : inherited_label(inputs_);
   if (!label.empty()) document["label"] = label;
+  if (path == output_) said_at_end_ = summary(document);
   if (as_table() && path == output_) {
     add_output(path, table_text(document));
     return;
@@ -290,7 +292,7 @@ int Tool::parse(int argc, char** argv) {
   begin_group(app_, "Every tool");
   app_.add_option("--label", label_, "What pictures call the result (default: the labels of the inputs)")
       ->type_name("TEXT");
-  not_in_provenance(app_.add_flag("--quiet", quiet_, "No warnings, no progress bar"));
+  not_in_provenance(app_.add_flag("--quiet", quiet_, "No warnings, no progress bar, no summary"));
   const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
   threads_ = static_cast<int>(cores);
   std::optional<int> threads;
@@ -361,6 +363,9 @@ int Tool::main(int argc, char** argv) {
   try {
     if (parse(argc, argv) == 0) run();
     outputs_.commit();
+    // What the document says, for who sees no document.
+    if (output_ != "-" && !said_at_end_.empty() && !quiet_ && isatty(STDERR_FILENO) == 1)
+      say(name_, output_ + ": " + said_at_end_);
     return static_cast<int>(ExitStatus::kDone);
   } catch (const WrongUsage& wrong) {
     return end(wrong.status(), std::string(wrong.what()) + " (see " + name_ + " --help)");

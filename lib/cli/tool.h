@@ -30,7 +30,8 @@ class Tool {
   Tool(std::string name, std::string purpose, const std::string& example, std::string main_kind);
   virtual ~Tool() = default;
 
-  /// Parses, runs, writes; the exit status. Every failure is one line on standard error.
+  /// Parses, runs, writes; the exit status. Every failure is one line on standard error; so is the summary of
+  /// a document that went into a file, where standard error is a terminal.
   int main(int argc, char** argv);
 
  protected:
@@ -88,6 +89,7 @@ class Tool {
   bool table_ = false;
   std::string csv_;
   std::string label_;
+  std::string said_at_end_;
   int threads_ = 0;
   CLI::Option* schema_option_ = nullptr;
   std::vector<const CLI::Option*> silent_options_;

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +12,7 @@
 #include <stdexcept>
 
 #include "cli/exit_status.h"
+#include "cli/progress_bar.h"
 #include "cli/scratch_folder_test.h"
 #include "document/text/data_error.h"
 
@@ -72,6 +74,17 @@ Outcome run_throwing(const std::function<void()>& work) {
 }
 
 }  // namespace
+
+TEST_CASE("the time left is that of the share that is done") {
+  using std::chrono::seconds;
+  CHECK(time_left(0.5, seconds(12)) == "12 s left");
+  CHECK(time_left(0.9, seconds(9)) == "1 s left");
+  CHECK(time_left(0.25, seconds(30)) == "2 min left");
+  CHECK(time_left(0.02, seconds(150)) == "2 h 3 min left");
+  CHECK(time_left(1, seconds(5)) == "0 s left");
+  CHECK(time_left(0.01, seconds(5)).empty());
+  CHECK(time_left(std::nan(""), seconds(5)).empty());
+}
 
 TEST_CASE("each failure has its exit status and one line") {
   const auto data = run_throwing([] { throw document::DataError("f", "line 1", "x", "expected y"); });

@@ -197,15 +197,19 @@ JointEstimate identify_joint(const JointData& data, const JointBounds& bounds, J
   return estimate;
 }
 
-std::vector<JointFinding> findings_of(const JointEstimate& estimate, JointObjective objective) {
+std::vector<JointFinding> findings_of(const JointEstimate& estimate, const JointBounds& bounds,
+                                      JointObjective objective) {
   using Kind = JointFinding::Kind;
-  const auto any = [](const std::array<bool, 4>& of) {
-    return std::any_of(of.begin(), of.end(), [](bool b) { return b; });
-  };
+  const JointBounds widest;
+  bool told = false;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const bool chosen = bounds.least[i] > widest.least[i] || bounds.most[i] < widest.most[i];
+    told = told || estimate.identifiable[i] || (estimate.at_bound[i] && chosen);
+  }
   std::vector<JointFinding> findings;
   if (objective != JointObjective::kAmplitude && estimate.residual > kNoFit)
     findings.push_back({Kind::kUnexplained, 0, estimate.residual});
-  if (!any(estimate.at_bound) && !any(estimate.identifiable)) findings.push_back({Kind::kNothingTold});
+  if (!told) findings.push_back({Kind::kNothingTold});
   if (estimate.residual > kPoorFit) findings.push_back({Kind::kPoorFit, 0, estimate.residual});
   const JointValues values = values_of(estimate.joint);
   for (std::size_t i = 0; i < values.size(); ++i) {

@@ -64,7 +64,7 @@ JointEstimate identify_joint(const JointData& data, const JointBounds& bounds, J
 struct JointFinding {
   enum class Kind {
     kUnexplained,      ///< no joint explains the tip; `number`: the estimate's residual
-    kNothingTold,      ///< no value is identifiable, and none lies at a bound
+    kNothingTold,      ///< no value is identifiable, and none lies at a bound that was chosen
     kPoorFit,          ///< `number`: the residual
     kAtBound,          ///< `value` lies at its bound, `number`
     kNotIdentifiable,  ///< `value`; `number`: its standard deviation over it
@@ -75,6 +75,9 @@ struct JointFinding {
 };
 
 /// In the order of the kinds, but value by value. Amplitudes are never unexplained: their phase is free.
-std::vector<JointFinding> findings_of(const JointEstimate& estimate, JointObjective objective);
+/// Values at a bound that is narrower than JointBounds{} are what was asked for, not what nothing is known
+/// of.
+std::vector<JointFinding> findings_of(const JointEstimate& estimate, const JointBounds& bounds,
+                                      JointObjective objective);
 
 }  // namespace stablecut::receptance

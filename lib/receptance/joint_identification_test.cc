@@ -265,13 +265,15 @@ TEST_CASE("what an estimate says of itself: kinds and numbers") {
   estimate.deviation = {1e5, 0, 8e3, 1e-3};
   estimate.at_bound = {false, true, false, false};
   estimate.identifiable = {true, false, false, true};
+  JointBounds bounds;
   const auto kinds = [&](JointObjective objective) {
     std::vector<Kind> found;
-    for (const JointFinding& finding : findings_of(estimate, objective)) found.push_back(finding.kind);
+    for (const JointFinding& finding : findings_of(estimate, bounds, objective))
+      found.push_back(finding.kind);
     return found;
   };
   CHECK(kinds(JointObjective::kComplex) == std::vector{Kind::kAtBound, Kind::kNotIdentifiable});
-  const auto findings = findings_of(estimate, JointObjective::kComplex);
+  const auto findings = findings_of(estimate, bounds, JointObjective::kComplex);
   CHECK(findings[0].value == 1);
   CHECK(findings[0].number == 0);
   CHECK(findings[1].value == 2);
@@ -281,9 +283,16 @@ TEST_CASE("what an estimate says of itself: kinds and numbers") {
   estimate.residual = 0.6;
   CHECK(kinds(JointObjective::kComplex).front() == Kind::kUnexplained);
   CHECK(kinds(JointObjective::kAmplitude).front() == Kind::kPoorFit);
-  // Without any value that is told or at a bound there is no answer.
+  // Without any value that is told, or at a bound that somebody chose, there is no answer.
   estimate.residual = 0;
-  estimate.at_bound = estimate.identifiable = {};
+  estimate.identifiable = {};
+  CHECK(kinds(JointObjective::kComplex).front() == Kind::kNothingTold);
+  bounds.least[0] = 1e5;
+  CHECK(kinds(JointObjective::kComplex).front() == Kind::kNothingTold);
+  bounds.most[1] = 100;
+  CHECK(kinds(JointObjective::kComplex) ==
+        std::vector{Kind::kNotIdentifiable, Kind::kAtBound, Kind::kNotIdentifiable, Kind::kNotIdentifiable});
+  estimate.at_bound = {};
   CHECK(kinds(JointObjective::kComplex).front() == Kind::kNothingTold);
 }
 

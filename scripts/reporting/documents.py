@@ -130,6 +130,8 @@ def read_document(path, kind=None):
         raw = sys.stdin.buffer.read() if path == "-" else pathlib.Path(path).read_bytes()
     except (OSError, ValueError):
         raise Refused(f"{shown}: cannot be read", 66) from None
+    if not raw.strip():
+        raise Refused(f"{shown}: empty input: expected a JSON document")
     try:
         content = json.loads(raw.decode(), parse_constant=_refuse_constant, parse_float=_finite, parse_int=_whole,
                              object_pairs_hook=_unique)
