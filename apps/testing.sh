@@ -46,6 +46,13 @@ same_for_every_tool() {
     "$tool" $option >.out 2>.err </dev/null
     check "$tool $option" test $? -eq 0 -a -s .out -a ! -s .err
   done
+  check "$tool --help: lines of 80 columns" test "$("$tool" --help | awk 'length > most {most = length} END {print most}')" -le 80
+  "$tool" --help | grep -oE -- "^ +-[^ ]+" | grep -oE -- "--[a-z0-9-]+" | sort -u >.options
+  sed 's/\\f[BIPR]//g; s/\\-/-/g' "$SOURCE/apps/$tool/$tool.1" >.page
+  check "$tool: the manual page has every option" test -z "$(comm -23 .options <(grep -oE -- '--[a-z0-9-]+' .page | sort -u) | tee .missing)" -a -s .options
+  check "$tool: and explains no other: $(cat .missing)" test -z "$(grep -A1 '^\.TP' .page | grep -E '^\.BR? "?-' | grep -oE -- '--[a-z0-9-]+' |
+    sort -u | comm -13 .options -)"
+  check "$tool: the manual page has examples" grep -q '^\.SH EXAMPLES' .page
   "$tool" --print-schema >.schema
   check_jq "$tool --print-schema is $kind" .schema '.properties.format.const == "stablecut/'"$kind"'/1"'
   refused 64 "^$tool: --print-schema: nonsense: expected one of .*$kind" "$tool" --print-schema nonsense

@@ -9,11 +9,18 @@ check "the README has examples" test -s examples.sh
 bash -euo pipefail examples.sh >log 2>&1; status=$?
 check "the README examples run: $(tail -n 2 log)" test $status -eq 0
 
+# The commands of each manual page, in this folder, with a table and a cut of the reader's own.
+cp testdata/thesis-table-6-2.json modes.json
+cp testdata/thesis-cut.json cut.json
+/usr/bin/python3 "$SOURCE/apps/fit-modes/simulate_taps.py" . && mv x.csv hits-x.csv
+for page in "$SOURCE"/apps/*/*.1 "$SOURCE/apps/stablecut.7"; do
+  awk '/^\.SH/ {examples = /EXAMPLES/} /^\.fi/ {inside = 0} inside && examples; /^\.nf/ {inside = 1}' "$page" | sed 's/\\-/-/g' |
+    grep -vE '^(limit|print|chart|radius|grid|contour|stable)\b' >page.sh
+  check "$(basename "$page") has examples" test "$(wc -l <page.sh)" -ge 3
+  PATH=$PWD/scripts:$PATH bash -euo pipefail page.sh >log 2>&1; status=$?
+  check "the examples of $(basename "$page") run: $(tail -n 2 log)" test $status -eq 0
+done
 page=$SOURCE/apps/stablecut.7
-awk '/^\.SH/ {examples = /EXAMPLES/} /^\.fi/ {inside = 0} inside && examples; /^\.nf/ {inside = 1}' "$page" | sed 's/\\-/-/g' >page.sh
-check "stablecut(7) has examples" test "$(wc -l <page.sh)" -ge 8
-PATH=$PWD/scripts:$PATH bash -euo pipefail page.sh >log 2>&1; status=$?
-check "its examples run: $(tail -n 2 log)" test $status -eq 0
 sed 's/\\-/-/g; s/\\f[BIPR]//g' "$page" >page.txt
 for schema in "$SOURCE"/schemas/*.schema.json; do
   kind=$(basename "$schema" .schema.json)

@@ -18,6 +18,7 @@
 #include "base/error.h"
 #include "cli/completion.h"
 #include "cli/exit_status.h"
+#include "cli/help_formatter.h"
 #include "cli/streams.h"
 #include "cli/summary.h"
 #include "document/text/data_error.h"
@@ -158,7 +159,9 @@ CLI::Option* add_unit_option(CLI::App& app, std::optional<document::FrfUnit>& va
 Tool::Tool(std::string name, std::string purpose, const std::string& example, std::string main_kind)
     : name_(std::move(name)),
       main_kind_(std::move(main_kind)),
-      app_(std::move(purpose) + "\n\nExample: " + example, name_) {}
+      app_(std::move(purpose) + "\n\nExample: " + example, name_) {
+  app_.formatter(std::make_shared<HelpFormatter>());
+}
 
 std::string Tool::advice(Remedy remedy) const {
   const std::string option = option_for(remedy);

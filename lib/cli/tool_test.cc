@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "cli/exit_status.h"
+#include "cli/help_formatter.h"
 #include "cli/progress_bar.h"
 #include "cli/scratch_folder_test.h"
 #include "document/text/data_error.h"
@@ -74,6 +75,15 @@ Outcome run_throwing(const std::function<void()>& work) {
 }
 
 }  // namespace
+
+TEST_CASE("texts of the help are lines of words") {
+  CHECK(wrapped("", 8).empty());
+  CHECK(wrapped("one", 8) == "one");
+  CHECK(wrapped("one two three", 7) == "one two\nthree");
+  CHECK(wrapped("one two three", 13) == "one two three");
+  CHECK(wrapped("one\n\nExample: x", 8) == "one\n\nExample:\nx");
+  CHECK(wrapped("a incomprehensible b", 5) == "a\nincomprehensible\nb");
+}
 
 TEST_CASE("the time left is that of the share that is done") {
   using std::chrono::seconds;
