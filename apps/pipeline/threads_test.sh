@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# The same bytes whatever the number of threads, and each time: every tool with something to share out.
+# The same bytes whatever the number of threads, and each time: every tool with something to share out. STABLECUT_OTHER_TOOLS names the folder
+# of another build's tools, whose bytes have to be the same too: scripts/check --all has those of a build without optimisation there.
 . "$SOURCE/apps/testing.sh"
 table=$data/thesis-table-6-2.json cut=$data/thesis-cut.json robot=(--robot "$data/kr360.json")
 chart=(--speed 8000:20000:9 --depth 0:3:9)
 
-# same NAME COMMAND...: the bytes with one thread are those with 2, 3 and 8, and of a second run with 8.
+# same NAME COMMAND...: the bytes with one thread are those with 2, 3 and 8, and of a second run with 8; and those of the other build.
 same() {
   local name=$1 count; shift
   "$@" --threads 1 >one.json || bad "$name: status $?"
@@ -12,6 +13,9 @@ same() {
     "$@" --threads $count >several.json
     check "$name with $count threads" cmp one.json several.json
   done
+  [ -n "${STABLECUT_OTHER_TOOLS:-}" ] || return 0
+  "$STABLECUT_OTHER_TOOLS/$1" "${@:2}" --threads 2 >other.json
+  check "$name by the other build" cmp one.json other.json
 }
 
 jq '.kt_std_n_per_mm2 = 30 | .kr_std_n_per_mm2 = 20' "$cut" >sure.json

@@ -63,7 +63,8 @@ void Node::check_document_names(std::initializer_list<std::string_view> known) c
 
 void Node::check_known(const std::vector<std::string_view>& known) const {
   if (!value_->is_object()) fail("expected an object");
-  for (const auto& [name, unused] : value_->items()) {
+  for (auto member = value_->begin(); member != value_->end(); ++member) {
+    const std::string& name = member.key();
     if (std::find(known.begin(), known.end(), name) != known.end() || name.starts_with("x_")) continue;
     // The same quantity in another unit is nearer than any other name.
     const auto distance = [&](std::string_view candidate) {
