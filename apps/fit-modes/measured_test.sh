@@ -18,6 +18,23 @@ for point in 1 2; do
   check_jq "point $point: says what stopped it" fit.json '.fit.stopped_by == "model error" and .fit.noise == "estimated"'
 done
 
+# With no option at all: what is there of the band, few modes, and the least depth that the banded table has. One raw hit of the tool too.
+least_depth() {
+  sdm-lobes --quiet "$1" --teeth 4 --kt 750 --kr 225 --milling down --immersion 0.5 --speed 2000:20000:100 --depth 0:20:2 --limit-only |
+    jq '[.limit[].depth_mm | numbers] | min'
+}
+gunzip -c "$SOURCE/../shared/real/raw-hit/hit.txt.gz" >hit.txt
+for row in "point1 400:4500 $measured/point1.txt" "point2 400:4500 $measured/point2.txt" "hit 400:3800 --taps x=hit.txt"; do
+  read -ra words <<<"$row"
+  name=${words[0]} band=${words[1]} arguments=("${words[@]:2}")
+  fit-modes --quiet "${arguments[@]}" -o fit.json
+  check "$name: fits without a band" test $? -eq 0
+  check_jq "$name without a band: at most 5 % error with at most 12 modes" fit.json '.fit.relative_error <= 0.05 and (.modes | length <= 12)'
+  fit-modes --quiet "${arguments[@]}" --band "$band" -o banded.json
+  check "$name without a band: the least depth within 20 %" jq -en --argjson whole "$(least_depth fit.json)" --argjson banded "$(least_depth banded.json)" \
+    '$banded > 1 and $whole > 0.8 * $banded and $whole < 1.2 * $banded'
+done
+
 # Point 1 as columns, as CutPro's .frf and as universal files is one measurement, with one table of modes.
 columns=$measured/point1.txt
 sed '1s/\r*$/\tm\/N/' "$columns" >point1.frf

@@ -15,6 +15,7 @@ constexpr double kModelErrorFactor = 1.5;
 constexpr double kLargestInflation = 1.6, kInflationOfFewLines = 30;
 // Two poles nearer than this share of the smaller half width stand at one place.
 constexpr double kOnePole = 0.5;
+constexpr double kMostLeft = 0.05;  // relative error that modes shall go below whatever the noise
 
 }  // namespace
 
@@ -58,6 +59,16 @@ double GroupFit::inflation_of(const RefinedModes& others) const {
     ++curves;
   }
   return std::max(1.0, others.chi_square / complex_values()) * length / curves;
+}
+
+double GroupFit::expected_error() const {
+  double sum = 0, curves = 0;
+  for (std::size_t c = 0; c < data.curves.size(); ++c) {
+    if (data.curves[c].h.isZero(0)) continue;
+    sum += variance[c].sum() / data.curves[c].h.squaredNorm();
+    ++curves;
+  }
+  return std::min(kMostLeft, std::sqrt(kModelErrorFloor * kModelErrorFloor + sum / curves));
 }
 
 bool GroupFit::exceeds_noise() const { return refined.chi_square / complex_values() > kModelErrorFactor; }

@@ -44,6 +44,10 @@ struct GroupFit {
   /// The same of other modes: mean chi-square (if above 1) times the correlation length of the residual.
   double inflation_of(const RefinedModes& others) const;
 
+  /// What modes are expected to leave of the curves where the model is the limit, as `relative_error` has it:
+  /// kModelErrorFloor and the noise, but no more than a table is to leave.
+  double expected_error() const;
+
   /// The residual is clearly larger than the noise.
   bool exceeds_noise() const;
   /// The residual can be white noise, as far as so many lines can tell.

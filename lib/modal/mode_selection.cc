@@ -15,8 +15,8 @@ namespace {
 constexpr Effort kRemoval{40, 0.1}, kAddition{40, 0.1};
 constexpr std::size_t kRemovalTrials = 4;  // modes that are tried for removal before a round gives up
 constexpr double kBeyondDoubt = 100;       // times the price: no trial where the predicted loss is larger
-// What a mode must take away of the residual where the model is the limit: the lesser share above
-// kModelErrorFloor, the larger one below it.
+// What a mode must take away of the residual where the model is the limit: the lesser share above what is
+// expected to be left, the larger one below it.
 constexpr double kLesserShare = 0.05;
 constexpr double kLargerShare = 0.3;
 constexpr double kLeastHalfWidth = 0.02;  // of a mode between two lines, in line spacings
@@ -70,7 +70,7 @@ double price_of_mode(const GroupFit& fit, const RefinedModes& with, const Refine
   // A residual that is not white prices all modes higher.
   if (fit.regime != Regime::kModelError) return information * fit.inflation_of(with);
   const double share =
-      relative_error(fit.data, without.modes) > kModelErrorFloor ? kLesserShare : kLargerShare;
+      relative_error(fit.data, without.modes) > fit.expected_error() ? kLesserShare : kLargerShare;
   return std::max(information, share * without.chi_square);
 }
 

@@ -86,6 +86,18 @@ TEST_CASE("a selection that runs out of rounds says so") {
   CHECK(fit.modes().size() == 3);
 }
 
+TEST_CASE("what is expected to be left of curves where the model is the limit is the floor and their noise") {
+  GroupFit fit = noisy_fit(fixtures::close_pair(), 3, 60);
+  CHECK(fit.expected_error() == Approx(std::hypot(kModelErrorFloor, 1e-3)).epsilon(1e-4));
+  // 1 % of the size of each curve.
+  for (std::size_t c = 0; c < 4; ++c)
+    fit.variance[c].setConstant(1e-4 * fit.data.curves[c].h.squaredNorm() / 1000);
+  CHECK(fit.expected_error() == Approx(std::hypot(kModelErrorFloor, 0.01)).epsilon(1e-9));
+  // 4 %: more than a table is to leave.
+  for (auto& variance : fit.variance) variance *= 16;
+  CHECK(fit.expected_error() == 0.05);
+}
+
 TEST_CASE("where the model is the limit, a mode must take away a share of what is left") {
   GroupFit fit = noisy_fit(fixtures::close_pair(), 3, 60);
   fit.weigh(Regime::kModelError);
