@@ -71,7 +71,9 @@ double GroupFit::expected_error() const {
   return std::min(kMostLeft, std::sqrt(kModelErrorFloor * kModelErrorFloor + sum / curves));
 }
 
-bool GroupFit::exceeds_noise() const { return refined.chi_square / complex_values() > kModelErrorFactor; }
+bool GroupFit::exceeds_noise(double chi_square) const {
+  return chi_square / complex_values() > kModelErrorFactor;
+}
 
 bool GroupFit::residual_is_white() const {
   return inflation_of(refined) < kLargestInflation + kInflationOfFewLines / static_cast<double>(data.lines());

@@ -48,8 +48,9 @@ struct GroupFit {
   /// kModelErrorFloor and the noise, but no more than a table is to leave.
   double expected_error() const;
 
-  /// The residual is clearly larger than the noise.
-  bool exceeds_noise() const;
+  /// The residual is clearly larger than the noise; the same of another chi-square.
+  bool exceeds_noise() const { return exceeds_noise(refined.chi_square); }
+  bool exceeds_noise(double chi_square) const;
   /// The residual can be white noise, as far as so many lines can tell.
   bool residual_is_white() const;
   /// More modes stand at one pole than there are directions: they imitate something else.

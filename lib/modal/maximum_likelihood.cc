@@ -108,7 +108,7 @@ RefinedModes refine_modes(const FitData& data, const std::vector<dynamics::Mode>
   }
   const double complex_values = data.values() / 2;
   ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
+  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
   options.max_num_iterations = effort.iterations;
   options.function_tolerance = effort.tolerance / complex_values;
   options.gradient_tolerance = 0;

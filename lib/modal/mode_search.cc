@@ -1,6 +1,7 @@
 #include "modal/mode_search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -12,6 +13,7 @@ namespace {
 
 // Of refinements between changes of the weights, and of the last one.
 constexpr Effort kBetween{60, 0.01}, kLast{240, 1e-5};
+constexpr int kParts = 4;    // of a refinement that may be given up
 constexpr int kRescues = 3;  // modes that may be added before the noise is given up
 
 GroupFit weighted(FitData data, CurveVariances given) {
@@ -30,14 +32,31 @@ void estimate_noise(GroupFit& fit) {
   fit.refined = fit.refine(fit.modes(), kBetween);
 }
 
+// Whether steps that each bring as much as the one from `before` could not reach the noise in so many more.
+bool out_of_reach(const GroupFit& fit, double before, int more) {
+  const double now = fit.refined.chi_square;
+  return fit.exceeds_noise(now * std::pow(now / before, more));
+}
+
+// As kLast, as long as it comes near the noise.
+void refine_towards_noise(GroupFit& fit) {
+  for (int part = kParts; part-- > 0 && fit.exceeds_noise();) {
+    const double before = fit.refined.chi_square;
+    fit.refined = fit.refine(fit.modes(), {kLast.iterations / kParts, kLast.tolerance});
+    if (out_of_reach(fit, before, part)) return;
+  }
+}
+
 // Where the residual exceeds the noise, the first refinement may have been stopped, or a few modes may have
 // been overlooked. If it is neither, weighing modes against noise makes no sense.
 void rescue(GroupFit& fit, const SelectionOptions& options) {
-  if (fit.exceeds_noise()) fit.refined = fit.refine(fit.modes(), kLast);
-  for (int attempt = 0; attempt < kRescues && fit.exceeds_noise(); ++attempt) {
-    std::optional<RefinedModes> more = with_another_mode(fit, options.wanted_modes);
-    if (!more) return;
-    fit.refined = std::move(*more);
+  refine_towards_noise(fit);
+  for (int more = kRescues; more-- > 0 && fit.exceeds_noise();) {
+    std::optional<RefinedModes> with = with_another_mode(fit, options.wanted_modes);
+    if (!with) return;
+    const double before = fit.refined.chi_square;
+    fit.refined = std::move(*with);
+    if (out_of_reach(fit, before, more)) return;
   }
 }
 
@@ -113,8 +132,11 @@ GroupFit from_strongest(GroupFit fit, const SelectionOptions& options) {
   // It may have been the way to the noise that failed, not the model.
   GroupFit noisy = fit;
   noisy.weigh(Regime::kNoise);
-  noisy.refined = noisy.refine(noisy.modes(), kLast);
-  if (noisy.exceeds_noise() || !noisy.residual_is_white()) return fit;
+  noisy.refined = noisy.refine(noisy.modes(), kBetween);
+  refine_towards_noise(noisy);
+  if (noisy.exceeds_noise()) return fit;
+  if (floors_decide(noisy.data, noisy.regime)) return without_noise(noisy, options);
+  if (!noisy.residual_is_white()) return fit;
   select_modes(noisy, options);
   return noisy;
 }

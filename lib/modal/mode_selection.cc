@@ -14,7 +14,9 @@ namespace {
 // Refinements that only have to tell whether a mode pays.
 constexpr Effort kRemoval{40, 0.1}, kAddition{40, 0.1};
 constexpr std::size_t kRemovalTrials = 4;  // modes that are tried for removal before a round gives up
-constexpr double kBeyondDoubt = 100;       // times the price: no trial where the predicted loss is larger
+// ... and none where an earlier one's factor between both losses puts it as many times above the price.
+constexpr double kAsBefore = 2;
+constexpr double kBeyondDoubt = 100;  // times the price: no trial where the predicted loss is larger
 // What a mode must take away of the residual where the model is the limit: the lesser share above what is
 // expected to be left, the larger one below it.
 constexpr double kLesserShare = 0.05;
@@ -32,28 +34,37 @@ std::vector<std::size_t> removal_order(const GroupFit& fit) {
   return order;
 }
 
-// The modes without that one; nothing where it is worth its price.
-std::optional<RefinedModes> without_mode(const GroupFit& fit, std::size_t k, bool forced) {
+// The modes without that one; nothing where it is worth its price. `underestimate` is by how much an earlier
+// trial's loss was above the second-order one, 0 without a trial.
+std::optional<RefinedModes> without_mode(const GroupFit& fit, std::size_t k, bool forced,
+                                         double& underestimate) {
   // The second-order loss is a good guess: no trial where it says that the mode matters beyond doubt.
   if (!forced && fit.refined.removal_loss[k] > kBeyondDoubt * price_of_mode(fit, fit.refined, fit.refined))
+    return std::nullopt;
+  if (!forced &&
+      underestimate * fit.refined.removal_loss[k] > kAsBefore * price_of_mode(fit, fit.refined, fit.refined))
     return std::nullopt;
   std::vector<dynamics::Mode> fewer = fit.modes();
   fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
   RefinedModes trial = fit.refine(fewer, kRemoval);
   const double loss = trial.chi_square - fit.refined.chi_square;
+  underestimate = loss / fit.refined.removal_loss[k];
   if (!forced && loss >= price_of_mode(fit, fit.refined, trial)) return std::nullopt;
   return trial;
 }
 
 // Takes modes away one by one, the least important first, as long as one is not worth its price.
-void remove_modes(GroupFit& fit, std::optional<int> wanted_modes) {
+// `underestimates` holds what trials told of each mode (see without_mode).
+void remove_modes(GroupFit& fit, std::optional<int> wanted_modes, std::vector<double>& underestimates) {
   const std::size_t least = wanted_modes ? static_cast<std::size_t>(*wanted_modes) : 0;
   while (fit.modes().size() > least) {
     const std::vector<std::size_t> order = removal_order(fit);
     std::optional<RefinedModes> fewer;
     for (std::size_t attempt = 0; attempt < std::min(kRemovalTrials, order.size()) && !fewer; ++attempt) {
       const std::size_t k = order[attempt];
-      fewer = without_mode(fit, k, wanted_modes.has_value() || is_too_narrow(fit.data, fit.modes()[k]));
+      fewer = without_mode(fit, k, wanted_modes.has_value() || is_too_narrow(fit.data, fit.modes()[k]),
+                           underestimates[k]);
+      if (fewer) underestimates.erase(underestimates.begin() + static_cast<std::ptrdiff_t>(k));
     }
     if (!fewer) return;
     fit.refined = std::move(*fewer);
@@ -95,8 +106,10 @@ std::optional<RefinedModes> with_another_mode(const GroupFit& fit, std::optional
 
 void select_modes(GroupFit& fit, const SelectionOptions& options) {
   fit.selection_settled = false;
+  std::vector<double> underestimates(fit.modes().size());
   for (int round = 0; round < options.rounds && !fit.selection_settled; ++round) {
-    remove_modes(fit, options.wanted_modes);
+    remove_modes(fit, options.wanted_modes, underestimates);
+    underestimates.resize(fit.modes().size() + 1);
     if (options.progress) options.progress(std::min(0.99, 0.5 + 0.01 * round));
     std::optional<RefinedModes> more = with_another_mode(fit, options.wanted_modes);
     if (more) fit.refined = std::move(*more);
