@@ -31,6 +31,7 @@ double criterion(const GroupFit& fit, double inflation) {
 // The mismatch that is left of curves that modes explain, of the logarithm of a factor or of a delay: one
 // step of Gauss and Newton for it and the modes' parameters together.
 double step_of(const GroupFit& fit, const EntryMismatch& mismatch) {
+  if (fit.modes().empty()) return 0;  // nothing says what the curves should be
   FitData changed = fit.data;
   double product = 0, square = 0;
   for (std::size_t c = 0; c < changed.curves.size(); ++c) {
