@@ -105,8 +105,8 @@ struct Pairing {
   std::size_t from, to;
 };
 
-// Those that fit best first, until every branch with a slope has one. A branch without a slope at either end is in
-// none.
+// Those that fit best first, until every branch with a slope has one. A branch without a slope at either end
+// is in none.
 std::vector<Pairing> pairings(const Place& a, const Place& b) {
   const auto with_slope = [](const Place& place) {
     return std::count_if(place.branches.begin(), place.branches.end(),
