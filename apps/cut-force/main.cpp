@@ -56,7 +56,6 @@ class CutForce : public cli::Tool {
                             "Steps of a tooth period (default: as many as the growth needs)");
     app.add_flag("--from-rest", request_.from_rest,
                  "Begin at rest in the full cut, a blow, instead of beside the periodic motion");
-
     cli::add_choice_option(app, "--tooth-paths", paths_, "circles|cycloids",
                            "Paths of the teeth as the tool is fed (default: circles)");
 

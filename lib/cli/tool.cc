@@ -217,7 +217,9 @@ void Tool::write_document(const std::string& path, document::Json document) {
                             : document.contains("label") ? ""
                                                          : inherited_label(inputs_);
   if (!label.empty()) document["label"] = label;
-  if (path == output_) said_at_end_ = summary(document);
+  // For who sees no document.
+  if (path == output_ && output_ != "-" && !quiet_ && isatty(STDERR_FILENO) == 1)
+    said_at_end_ = summary(document);
   if (as_table() && path == output_) {
     add_output(path, table_text(document));
     return;
@@ -366,9 +368,7 @@ int Tool::main(int argc, char** argv) {
   try {
     if (parse(argc, argv) == 0) run();
     outputs_.commit();
-    // What the document says, for who sees no document.
-    if (output_ != "-" && !said_at_end_.empty() && !quiet_ && isatty(STDERR_FILENO) == 1)
-      say(name_, output_ + ": " + said_at_end_);
+    if (!said_at_end_.empty()) say(name_, output_ + ": " + said_at_end_);
     return static_cast<int>(ExitStatus::kDone);
   } catch (const WrongUsage& wrong) {
     return end(wrong.status(), std::string(wrong.what()) + " (see " + name_ + " --help)");

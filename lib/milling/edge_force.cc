@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/error.h"
 #include "base/units.h"
 #include "numerics/golden_section.h"
 #include "numerics/legendre.h"
@@ -58,14 +59,13 @@ void EdgeForce::add_break(double turn_rad, double lag_rad) {
   if (lag_rad != 0) breaks_.push_back(in_period(turn_rad + lag_rad));
 }
 
-// Without runout each tooth cuts what the one before it has left: one arc for each.
+// Each tooth cuts what the one before it has left: one arc for each.
 void EdgeForce::set_edges(const Cutter& cutter, const CuttingLoad& load) {
   cutter.check_edges_apart(depth_m_);
-  CuttingLoad even = load;
-  even.runout_m.clear();
+  if (!load.runout_m.empty()) throw InvalidArgument("runout: expected none where helices differ");
   const Cutter tip = cutter.at_height(0), top = cutter.at_height(depth_m_);
   const auto arcs_of = [&](const Cutter& straight) {
-    std::vector<TurningArc<4>> arcs = force_cycle(straight, even, depth_m_).arcs;
+    std::vector<TurningArc<4>> arcs = force_cycle(straight, load, depth_m_).arcs;
     double behind = 0;
     for (std::size_t j = 0; j < arcs.size(); ++j) {
       for (int m = 1; m < 3; ++m) arcs[j].harmonics.col(m) *= std::polar(1.0, m * behind);

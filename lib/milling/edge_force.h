@@ -10,10 +10,10 @@
 
 namespace stablecut::milling {
 
-/// The force at one depth; a helical edge is straight ones one after the other. Where helices differ, runout
-/// is left out.
+/// The force at one depth; a helical edge is straight ones one after the other.
 class EdgeForce {
  public:
+  /// Where helices differ: throws NoAnswer where edges meet within the depth, InvalidArgument with runout.
   EdgeForce(const Cutter& cutter, const CuttingLoad& load, double depth_m);
 
   double period_rad() const { return cycle_.period_rad; }

@@ -155,7 +155,12 @@ TEST_CASE("helices that differ: the sum of many straight teeth, each with the ch
   for (const double turn : {0.1, 1.3, 2.6}) CHECK((alike.at(turn) - listed.at(turn)).norm() < 1e-10 * size);
   CHECK(listed.peak().force_n == Approx(alike.peak().force_n).epsilon(1e-9));
 
-  // The second edge, 190 rad/m behind the first, is 1.9 rad behind it at the tip.
-  cutter.tooth_lag_rad_per_m = {190, 0, 150};
-  CHECK_THROWS_AS(EdgeForce(cutter, kLoad, 12e-3), NoAnswer);
+  // The second edge is a third of a turn behind the first at the tip, and the first lags by 200 rad/m more.
+  cutter.tooth_lag_rad_per_m = {200, 0, 150};
+  const double meet = kTwoPi / 3 / 200;
+  CHECK_NOTHROW(EdgeForce(cutter, kLoad, 0.99 * meet));
+  CHECK_THROWS_AS(EdgeForce(cutter, kLoad, 1.01 * meet), NoAnswer);
+  CuttingLoad runout = kLoad;
+  runout.runout_m = {1e-5, -1e-5, 0};
+  CHECK_THROWS_AS(EdgeForce(cutter, runout, 0.5 * meet), InvalidArgument);
 }
