@@ -30,6 +30,17 @@ std::string poor_coherence(const modal::TapFinding& finding) {
          (finding.averages_known ? "; such lines weigh less" : "; with --averages N such lines weigh less");
 }
 
+std::string exchanged(const modal::TapFinding& finding) {
+  const std::string which =
+      finding.kind == modal::TapFindingKind::kExchanged
+          ? name_of(finding.entry) + " and " + name_of(finding.mirror) + " look exchanged"
+          : "the responses along " + finding.entry.response + " and " + finding.entry.reference +
+                " look exchanged in all entries";
+  return which + ": cross entries differ from their mirror images by " + percent_text(finding.most) +
+         ", the other way round by " + percent_text(finding.least) +
+         "; the modes would not be the tool's (swap the channels in the file or in --entry)";
+}
+
 std::string unusual_peak(const modal::TapFinding& finding) {
   return "the largest receptance is " + number(finding.most) + " m/N, a structure as " +
          (finding.kind == modal::TapFindingKind::kSoft ? "soft" : "stiff") + " as " +
@@ -110,6 +121,9 @@ std::string words_of(const modal::TapFinding& finding, bool band_chosen) {
              ", noise alone would by " + percent_text(finding.least) +
              ": not reciprocal, as a controlled robot is, or taps at other places than the sensor's; the "
              "modes follow what was measured";
+    case modal::TapFindingKind::kExchanged:
+    case modal::TapFindingKind::kBothExchanged:
+      return exchanged(finding);
     case modal::TapFindingKind::kPoorCoherence:
       return poor_coherence(finding);
     case modal::TapFindingKind::kSoft:

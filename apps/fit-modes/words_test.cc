@@ -52,6 +52,9 @@ TEST_CASE("what a tap shows about itself, in words") {
       {.kind = TapFindingKind::kPositive, .entry = kXx, .most = 1},
       "Hxx: a driving point's imaginary part is negative, this is positive on 100 %: the sign of response or "
       "force is swapped, or it is another quantity (--quantity); the modes would give energy away");
+  check({.kind = TapFindingKind::kExchanged, .entry = kXx, .mirror = kYx, .least = 0.02, .most = 0.6},
+        "Hxx and Hyx look exchanged: cross entries differ from their mirror images by 60 %, the other way "
+        "round by 2 %; the modes would not be the tool's (swap the channels in the file or in --entry)");
   check({.kind = TapFindingKind::kOppositeMirror, .entry = kXy, .mirror = kYx},
         "Hxy is Hyx with the other sign: one direction is swapped in one of them (-x in the file or in "
         "--entry); the modes cannot be reciprocal");

@@ -368,33 +368,3 @@ TEST_CASE("cross entries alone share their modes") {
   CHECK(fit.model.modes.size() == 4);
   CHECK_FALSE(fit.limited_by_model);
 }
-
-// A resonance of a weak nonlinearity: a mode, and a part that decays three times as fast.
-TEST_CASE("intervals hold a weak nonlinearity") {
-  for (const double size : {0.005, 0.03}) {
-    dynamics::ModalModel truth;
-    truth.dofs = {"x"};
-    dynamics::Mode mode;
-    mode.frequency_hz = 300;
-    mode.damping_ratio = 0.02;
-    mode.psi_r = mode.psi_l = Eigen::VectorXcd::Constant(1, std::polar(1e-2, -kTwoPi / 8));
-    truth.modes = {mode};
-    dynamics::ModalModel bent = truth;
-    dynamics::Mode satellite = mode;
-    dynamics::set_pole(satellite, Complex(3 * mode.pole().real(), mode.pole().imag()));
-    satellite.psi_l *= std::polar(size, 1.0);
-    bent.modes.push_back(satellite);
-    dynamics::FrequencyResponse frf = dynamics::synthesize(bent, Eigen::VectorXd::LinSpaced(1000, 1, 1000));
-    dynamics::add_noise(frf, {.relative_db = {}, .floor_db = 50, .seed = 3});
-    for (auto& entry : frf.entries) entry.variance.resize(0);
-    const ModalFit fit = fit_modes(frf);
-    const auto main =
-        std::min_element(fit.model.modes.begin(), fit.model.modes.end(),
-                         [](const auto& a, const auto& b) { return a.damping_ratio < b.damping_ratio; });
-    const Eigen::Index at = (main - fit.model.modes.begin()) * 6;
-    // The error of an interval that holds 95 % is below two deviations; without the satellite's they are a
-    // tenth of what is needed for the larger size.
-    CHECK(std::abs(main->frequency_hz - 300) < 2 * std::sqrt(fit.model.covariance(at, at)));
-    CHECK(std::abs(main->damping_ratio - 0.02) < 2 * std::sqrt(fit.model.covariance(at + 1, at + 1)));
-  }
-}

@@ -1,10 +1,13 @@
 #include "modal/shape_errors.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <optional>
 #include <utility>
+
+#include "modal/maximum_likelihood.h"
 
 namespace stablecut::modal {
 namespace {
@@ -14,21 +17,22 @@ using Complex = std::complex<double>;
 // A vibration whose frequency or damping depends on its size A exp(-sigma t) to second order has a part that
 // decays like exp(-3 sigma t).
 constexpr double kSatelliteDecay = 3;
-// Of a mode that is taken for such a part: its decay over the other's, its residue over the other's, and how
-// parallel both responses are (modal assurance criterion).
-constexpr double kLeastDecay = 2, kMostDecay = 5, kMostResidue = 0.5, kParallel = 0.95;
-// What chi-square may fall by chance, beyond its mean: a gain above g has a probability of order exp(-g), for
-// each of the modes.
+// A mode that makes less than this share of what is measured at its place, in every curve, may imitate what
+// no mode has.
+constexpr double kImitation = 0.1;
+// Exponent of the probability that chi-square falls by chance as much as a shape is said to need.
 constexpr double kChanceGain = 6;
 
-bool is_satellite(const dynamics::Mode& mode, const dynamics::Mode& of) {
-  const Complex own = mode.pole(), pole = of.pole();
-  const double decay = own.real() / pole.real();
-  if (decay < kLeastDecay || decay > kMostDecay || std::abs(own.imag() - pole.imag()) > -pole.real())
-    return false;
-  const double residue = mode.psi_r.norm() * mode.psi_l.norm(), other = of.psi_r.norm() * of.psi_l.norm();
-  const double parallel = std::abs(mode.psi_r.dot(of.psi_r)) / (mode.psi_r.norm() * of.psi_r.norm());
-  return residue < kMostResidue * other && parallel * parallel > kParallel;
+// Whether a mode may imitate: no curve shows it by more than a small share of what is there.
+bool may_imitate(const FitData& data, const std::vector<dynamics::Mode>& modes, const dynamics::Mode& mode) {
+  const Complex pole = mode.pole();
+  FitData near;
+  near.s =
+      Complex(0, 1) * Eigen::Vector3cd(pole.imag() + pole.real(), pole.imag(), pole.imag() - pole.real());
+  return std::all_of(data.curves.begin(), data.curves.end(), [&](const Curve& curve) {
+    const double own = std::abs(mode.psi_r[curve.response] * mode.psi_l[curve.reference] / pole.real());
+    return own <= kImitation * curve_of(modes, curve, near.s).norm() / std::sqrt(3);
+  });
 }
 
 // Mode k with the residue psi_r psi_l^T as well, whose psi_r is parallel to its own: the change, in
@@ -45,6 +49,12 @@ Eigen::VectorXd moved_residue(const ModeParameters& parameters, Eigen::Index k, 
   return change;
 }
 
+// What chi-square falls by chance for so many more parameters with a probability of exp(-kChanceGain) at most
+// [Laurent2000]; it counts half of the usual one.
+double chance_gain(double parameters) {
+  return parameters / 2 + std::sqrt(parameters * kChanceGain) + kChanceGain;
+}
+
 // A change of all free parameters, in coordinates.
 Eigen::VectorXd to_coordinates(const ModeParameters& parameters, const Eigen::VectorXd& x,
                                const Eigen::VectorXd& change) {
@@ -56,10 +66,11 @@ Eigen::VectorXd to_coordinates(const ModeParameters& parameters, const Eigen::Ve
   return result;
 }
 
-// What a satellite that is missing among the modes would change of them.
+// What columns that are missing among the modes' would change of them.
 struct Missing {
+  double gain = 0;          // of chi-square
   Eigen::VectorXd adapted;  // the modes' parameters
-  Eigen::VectorXcd left;    // psi_l of the satellite
+  Eigen::VectorXd change;   // the columns' own, 0 where no curve has a slope
 };
 
 // Solution of a positive definite system in units of its diagonal; nothing where it is none.
@@ -71,11 +82,9 @@ std::optional<Eigen::VectorXd> solved(const Eigen::MatrixXd& matrix, const Eigen
   return solution.allFinite() ? std::optional(std::move(solution)) : std::nullopt;
 }
 
-// The satellite whose psi_l has `width` parameters from `first` on, if chi-square asks for it by more than
-// `chance` beyond its mean. The first `own` parameters are the modes'.
-std::optional<Missing> missing_satellite(const NormalEquations& with, const Eigen::LLT<Eigen::MatrixXd>& base,
-                                         Eigen::Index own, Eigen::Index first, Eigen::Index width,
-                                         double chance) {
+// The columns `first` to `first + width` of which the first `own` parameters, the modes', know nothing.
+std::optional<Missing> missing_columns(const NormalEquations& with, const Eigen::LLT<Eigen::MatrixXd>& base,
+                                       Eigen::Index own, Eigen::Index first, Eigen::Index width) {
   // Directions without a curve have neither slope nor change.
   std::vector<Eigen::Index> at;
   for (Eigen::Index p = first; p < first + width; ++p)
@@ -84,48 +93,102 @@ std::optional<Missing> missing_satellite(const NormalEquations& with, const Eige
   const Eigen::MatrixXd adapted = base.solve(cross);
   const Eigen::VectorXd slope = with.gradient(at) - adapted.transpose() * with.gradient.head(own);
   const auto change = solved(with.matrix(at, at) - cross.transpose() * adapted, -slope);
-  if (!change || -change->dot(slope) < chance + static_cast<double>(at.size()) / 2) return std::nullopt;
-  Missing missing{-adapted * *change, Eigen::VectorXcd::Zero(width / 2)};
-  for (std::size_t a = 0; a < at.size(); ++a) {
-    const Eigen::Index p = at[a] - first;
-    const double value = (*change)[static_cast<Eigen::Index>(a)];
-    missing.left[p / 2] += p % 2 == 0 ? Complex(value, 0) : Complex(0, value);
-  }
+  if (!change) return std::nullopt;
+  Missing missing{-change->dot(slope), -adapted * *change, Eigen::VectorXd::Zero(width)};
+  for (std::size_t a = 0; a < at.size(); ++a)
+    missing.change[at[a] - first] = (*change)[static_cast<Eigen::Index>(a)];
   return missing;
 }
 
-// Satellites among the modes: without them the others would be elsewhere, and one's residue may be the
-// other's.
-void add_present(const FitData& data, const ModeParameters& parameters, const Eigen::VectorXd& x,
-                 const NormalEquations& normal, const std::vector<dynamics::Mode>& modes,
-                 std::vector<bool>& known, std::vector<Eigen::VectorXd>& errors) {
-  const Eigen::MatrixXd inverse = inverse_normal_matrix(normal);
-  for (Eigen::Index s = 0; s < parameters.modes(); ++s) {
-    for (Eigen::Index k = 0; k < parameters.modes(); ++k) {
-      const dynamics::Mode &satellite = modes[s], &mode = modes[k];
-      if (!data.in_band(mode.pole()) || !is_satellite(satellite, mode)) continue;
-      known[k] = known[s] = true;
-      const Eigen::VectorXd removal = parameters.removal(x, s);
-      const Eigen::Index first = parameters.pole_at(s) + parameters.per_mode() - removal.size();
-      const auto pulled = solved(inverse.block(first, first, removal.size(), removal.size()), removal);
-      if (!pulled) continue;
-      Eigen::VectorXd change = inverse.middleCols(first, removal.size()) * *pulled;
-      change.segment(parameters.pole_at(s), parameters.per_mode()).setZero();
-      errors.push_back(to_coordinates(parameters, x, change));
-      errors.push_back(moved_residue(parameters, k, mode, satellite.psi_r, satellite.psi_l));
+// How the other modes would change without these, to first order; nothing where it cannot be told.
+std::optional<Eigen::VectorXd> without_modes(const ModeParameters& parameters, const Eigen::VectorXd& x,
+                                             const Eigen::MatrixXd& inverse,
+                                             const std::vector<Eigen::Index>& removed) {
+  std::vector<Eigen::Index> at;
+  std::vector<double> by;
+  for (const Eigen::Index s : removed) {
+    const Eigen::VectorXd removal = parameters.removal(x, s);
+    for (Eigen::Index i = 0; i < removal.size(); ++i) {
+      at.push_back(parameters.pole_at(s) + parameters.per_mode() - removal.size() + i);
+      by.push_back(removal[i]);
     }
   }
+  const auto pulled = solved(inverse(at, at), Eigen::Map<const Eigen::VectorXd>(by.data(), by.size()));
+  if (!pulled) return std::nullopt;
+  Eigen::VectorXd change = inverse(Eigen::all, at) * *pulled;
+  for (const Eigen::Index s : removed) change.segment(parameters.pole_at(s), parameters.per_mode()).setZero();
+  return to_coordinates(parameters, x, change);
 }
 
-// Satellites that were not worth a mode, but may be there.
+// Modes that may imitate something: without one of them, or all, the others would be elsewhere.
+void add_imitations(const FitData& data, const ModeParameters& parameters, const Eigen::VectorXd& x,
+                    const NormalEquations& normal, const std::vector<dynamics::Mode>& modes,
+                    std::vector<Eigen::VectorXd>& errors) {
+  std::vector<Eigen::Index> doubtful;
+  for (Eigen::Index s = 0; s < parameters.modes(); ++s)
+    if (data.in_band(modes[s].pole()) && may_imitate(data, modes, modes[s])) doubtful.push_back(s);
+  if (doubtful.empty()) return;
+  const Eigen::MatrixXd inverse = inverse_normal_matrix(normal);
+  std::vector<std::vector<Eigen::Index>> removals;
+  for (const Eigen::Index s : doubtful) removals.push_back({s});
+  if (doubtful.size() > 1) removals.push_back(doubtful);
+  for (const auto& removed : removals)
+    if (auto change = without_modes(parameters, x, inverse, removed)) errors.push_back(std::move(*change));
+}
+
+// Curves of a damping force that does not grow with frequency (hysteretic), less those of the modes: the same
+// pole, and at its mirror image what has no conjugate.
+std::vector<Eigen::VectorXcd> hysteretic_changes(const FitData& data,
+                                                 const std::vector<dynamics::Mode>& modes) {
+  std::vector<Eigen::VectorXcd> changes;
+  for (const Curve& curve : data.curves) {
+    Eigen::VectorXcd change = Eigen::VectorXcd::Zero(data.lines());
+    for (const dynamics::Mode& mode : modes) {
+      if (!data.in_band(mode.pole())) continue;
+      const Complex pole = mode.pole(), residue = mode.psi_r[curve.response] * mode.psi_l[curve.reference];
+      change.array() -=
+          residue / (data.s.array() + pole) + std::conj(residue) / (data.s.array() - std::conj(pole));
+    }
+    changes.push_back(std::move(change));
+  }
+  return changes;
+}
+
+// What the modes would be if that share of their damping were hysteretic which the curves ask for.
+void add_hysteresis(const FitData& data, const ModeParameters& parameters, const Eigen::VectorXd& x,
+                    const NormalEquations& normal, const std::vector<dynamics::Mode>& modes,
+                    std::vector<Eigen::VectorXd>& errors) {
+  // With curves less the change, and more than they are by it, chi-square and its gradient tell all products.
+  FitData less = data, more = data;
+  const std::vector<Eigen::VectorXcd> changes = hysteretic_changes(data, modes);
+  for (std::size_t c = 0; c < changes.size(); ++c) {
+    less.curves[c].h -= changes[c];
+    more.curves[c].h += changes[c];
+  }
+  const std::vector<bool> outside = out_of_band(data, modes);
+  const NormalEquations below = Likelihood(less, parameters, outside).evaluate(x, true),
+                        above = Likelihood(more, parameters, outside).evaluate(x, true);
+  // Of residuals r = model - h and a change d of the model: J^T W d, r^T W d, d^T W d.
+  const Eigen::VectorXd cross = (below.gradient - above.gradient) / 2;
+  const double along = (below.chi_square - above.chi_square) / 4,
+               square = (below.chi_square + above.chi_square) / 2 - normal.chi_square;
+  const Eigen::VectorXd adapted = inverse_normal_matrix(normal) * cross;
+  const double slope = along - adapted.dot(normal.gradient), curvature = square - adapted.dot(cross);
+  if (getenv("DBG"))
+    fprintf(stderr, "hyst share %g gain %g\n", -slope / curvature, slope * slope / curvature);
+  if (!(curvature > 0) || slope * slope / curvature < kChanceGain + 0.5) return;
+  errors.push_back(to_coordinates(parameters, x, adapted * (slope / curvature)));
+}
+
+// Satellites that were not worth a mode, but may be there: where one stands out, or all together do, each
+// that is likelier than not.
 void add_missing(const FitData& data, const ModeParameters& parameters,
-                 const std::vector<dynamics::Mode>& modes, const std::vector<bool>& known,
-                 std::vector<Eigen::VectorXd>& errors) {
+                 const std::vector<dynamics::Mode>& modes, std::vector<Eigen::VectorXd>& errors) {
   std::vector<dynamics::Mode> more = modes;
   std::vector<std::size_t> of;
   for (std::size_t k = 0; k < modes.size(); ++k) {
     const Complex pole = modes[k].pole();
-    if (!data.in_band(pole) || known[k]) continue;
+    if (!data.in_band(pole) || may_imitate(data, modes, modes[k])) continue;
     more.push_back(modes[k]);
     dynamics::set_pole(more.back(), Complex(kSatelliteDecay * pole.real(), pole.imag()));
     more.back().psi_l.setZero();
@@ -138,16 +201,28 @@ void add_missing(const FitData& data, const ModeParameters& parameters,
   const Eigen::Index own = parameters.modes() * extended.per_mode(), width = 2 * data.dofs;
   const Eigen::LLT<Eigen::MatrixXd> base(with.matrix.topLeftCorner(own, own));
   if (base.info() != Eigen::Success) return;
-  const std::vector<dynamics::Mode> unpacked = extended.unpack(x);
-  const double chance = kChanceGain + std::log(static_cast<double>(of.size()));
+  std::vector<std::optional<Missing>> satellites;
+  double gain = 0, parameters_of_all = 0;
+  bool any = false;
   for (std::size_t i = 0; i < of.size(); ++i) {
-    const std::size_t at = modes.size() + i;
-    const Eigen::Index first = extended.pole_at(static_cast<Eigen::Index>(at)) + extended.per_mode() - width;
-    const auto missing = missing_satellite(with, base, own, first, width, chance);
-    if (!missing) continue;
-    errors.push_back(to_coordinates(parameters, x.head(own), missing->adapted));
+    const Eigen::Index at = own + static_cast<Eigen::Index>(i) * extended.per_mode();
+    satellites.push_back(missing_columns(with, base, own, at + extended.per_mode() - width, width));
+    if (!satellites.back()) continue;
+    gain += satellites.back()->gain;
+    parameters_of_all += static_cast<double>(width);
+    any = any || satellites.back()->gain >
+                     chance_gain(static_cast<double>(width)) + std::log(static_cast<double>(of.size()));
+  }
+  if (!any && gain < chance_gain(parameters_of_all)) return;
+  const std::vector<dynamics::Mode> unpacked = extended.unpack(x);
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    if (!satellites[i] || satellites[i]->gain < static_cast<double>(width) / 2) continue;
+    errors.push_back(to_coordinates(parameters, x.head(own), satellites[i]->adapted));
+    Eigen::VectorXcd left(data.dofs);
+    for (Eigen::Index j = 0; j < left.size(); ++j)
+      left[j] = {satellites[i]->change[2 * j], satellites[i]->change[2 * j + 1]};
     errors.push_back(moved_residue(parameters, static_cast<Eigen::Index>(of[i]), modes[of[i]],
-                                   unpacked[at].psi_r, missing->left));
+                                   unpacked[modes.size() + i].psi_r, left));
   }
 }
 
@@ -156,10 +231,10 @@ void add_missing(const FitData& data, const ModeParameters& parameters,
 std::vector<Eigen::VectorXd> shape_errors(const FitData& data, const ModeParameters& parameters,
                                           const Eigen::VectorXd& x, const NormalEquations& normal) {
   const std::vector<dynamics::Mode> modes = parameters.unpack(x);
-  std::vector<bool> known(modes.size(), false);
   std::vector<Eigen::VectorXd> errors;
-  add_present(data, parameters, x, normal, modes, known, errors);
-  add_missing(data, parameters, modes, known, errors);
+  add_imitations(data, parameters, x, normal, modes, errors);
+  add_missing(data, parameters, modes, errors);
+  add_hysteresis(data, parameters, x, normal, modes, errors);
   return errors;
 }
 

@@ -178,26 +178,89 @@ void compare_mirrors(const Eigen::VectorXd& hz, const Channel& a, const Channel&
   }
 }
 
+const Channel* find(const std::vector<Channel>& channels, const std::string& response,
+                    const std::string& reference) {
+  const auto at = std::find_if(channels.begin(), channels.end(), [&](const Channel& channel) {
+    return channel.entry->response == response && channel.entry->reference == reference;
+  });
+  return at == channels.end() || at->dead ? nullptr : &*at;
+}
+
+// By how much these would differ as mirror images, and whether that is more than noise and a usual structure
+// make.
+struct MirrorDifference {
+  double difference = 0, noise = 0;
+  bool stands_out() const {
+    return difference >= std::max(kNotReciprocalShare, kNotReciprocalNoises * noise);
+  }
+};
+
+std::optional<MirrorDifference> difference_of(MirrorComparison comparison) {
+  if (comparison.difference.empty()) return std::nullopt;
+  return MirrorDifference{median(std::move(comparison.difference)), median(std::move(comparison.noise))};
+}
+
+// Responses to one force that were exchanged, or to both: as they are, cross entries are not mirror images;
+// exchanged they are, and the driving points take energy.
+std::optional<TapFinding> exchanged_responses(const Eigen::VectorXd& hz, const Channel& ab, const Channel& ba,
+                                              const std::vector<Channel>& channels, double usable_from_hz,
+                                              double measured) {
+  const std::string &a = ab.entry->response, &b = ab.entry->reference;
+  const Channel *aa = find(channels, a, a), *bb = find(channels, b, b);
+  if (aa == nullptr || bb == nullptr) return std::nullopt;
+  struct Exchange {
+    const Channel *mirror, *mirrored;  // cross entries then
+    const Channel *driving, *other;    // driving points then
+    TapFinding finding;
+  };
+  const Exchange exchanges[] = {
+      {&ab, aa, &ba, bb, {.kind = TapFindingKind::kExchanged, .entry = aa->name(), .mirror = ba.name()}},
+      {bb, &ba, aa, &ab, {.kind = TapFindingKind::kExchanged, .entry = ab.name(), .mirror = bb->name()}},
+      {bb, aa, &ba, &ab, {.kind = TapFindingKind::kBothExchanged, .entry = ab.name()}}};
+  std::optional<TapFinding> best;
+  for (const Exchange& exchange : exchanges) {
+    if (std::max(positive_share(*exchange.driving, usable_from_hz, &WindowSummary::imaginary),
+                 positive_share(*exchange.other, usable_from_hz, &WindowSummary::imaginary)) > kSomeSign)
+      continue;
+    MirrorComparison comparison;
+    compare_mirrors(hz, *exchange.mirror, *exchange.mirrored, usable_from_hz, comparison);
+    const auto then = difference_of(std::move(comparison));
+    if (!then || then->stands_out() || (best && best->least <= then->difference)) continue;
+    best = exchange.finding;
+    best->least = then->difference;
+    best->most = measured;
+  }
+  return best;
+}
+
 void check_mirrors(const Eigen::VectorXd& hz, const std::vector<Channel>& channels, double usable_from_hz,
                    Findings& findings) {
-  MirrorComparison comparison;  // of the last pair in its cosine, of all pairs in the rest
-  for (const Channel& a : channels) {
-    for (const Channel& b : channels) {
-      const bool mirrored =
-          a.entry->response == b.entry->reference && a.entry->reference == b.entry->response;
-      if (!mirrored || a.dead || b.dead || a.entry->response >= a.entry->reference) continue;
-      comparison.cosine.clear();
-      compare_mirrors(hz, a, b, usable_from_hz, comparison);
-      if (comparison.cosine.empty() || median(comparison.cosine) > -kWrongSign) continue;
-      findings.push_back({.kind = TapFindingKind::kOppositeMirror, .entry = a.name(), .mirror = b.name()});
+  MirrorComparison all;
+  for (const Channel& ab : channels) {
+    if (ab.dead || ab.entry->response >= ab.entry->reference) continue;
+    const Channel* ba = find(channels, ab.entry->reference, ab.entry->response);
+    if (ba == nullptr) continue;
+    MirrorComparison comparison;
+    compare_mirrors(hz, ab, *ba, usable_from_hz, comparison);
+    if (comparison.cosine.empty()) continue;
+    if (median(comparison.cosine) <= -kWrongSign) {
+      findings.push_back({.kind = TapFindingKind::kOppositeMirror, .entry = ab.name(), .mirror = ba->name()});
       return;
     }
+    const auto measured = difference_of(comparison);
+    if (measured->stands_out()) {
+      if (auto exchanged = exchanged_responses(hz, ab, *ba, channels, usable_from_hz, measured->difference)) {
+        findings.push_back(std::move(*exchanged));
+        return;
+      }
+    }
+    all.difference.insert(all.difference.end(), comparison.difference.begin(), comparison.difference.end());
+    all.noise.insert(all.noise.end(), comparison.noise.begin(), comparison.noise.end());
   }
-  if (comparison.difference.empty()) return;
-  const double index = median(std::move(comparison.difference)),
-               of_noise = median(std::move(comparison.noise));
-  if (index < std::max(kNotReciprocalShare, kNotReciprocalNoises * of_noise)) return;
-  findings.push_back({.kind = TapFindingKind::kNotReciprocal, .least = of_noise, .most = index});
+  const auto measured = difference_of(std::move(all));
+  if (!measured || !measured->stands_out()) return;
+  findings.push_back(
+      {.kind = TapFindingKind::kNotReciprocal, .least = measured->noise, .most = measured->difference});
 }
 
 // Two hits make the force vanish on lines at equal distances: one period holds most of the dips.

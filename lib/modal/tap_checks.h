@@ -27,6 +27,9 @@ enum class TapFindingKind {
   kOppositeMirror,   ///< `entry` is `mirror` with the other sign
   kNotReciprocal,    ///< the cross entries differ from their mirrors by the share `most`, noise alone by
                      ///< `least`
+  kExchanged,        ///< `entry` and `mirror`, responses to one force, look exchanged: the cross entries
+                     ///< differ by the share `most`, with these exchanged by `least`
+  kBothExchanged,    ///< the same of the responses to both forces, along `entry`'s two directions
   /// The coherence of `entry` is below `least` on the share `most` of the lines that respond, from `lo_hz` to
   /// `hi_hz`; `hit_delay_s` where its dips tell; `averages_known`
   kPoorCoherence,

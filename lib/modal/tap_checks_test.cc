@@ -234,3 +234,22 @@ TEST_CASE("more disturbed lines than a few are something else, and stay") {
     CHECK(kinds_on(frf) == (count == 39 ? Kinds{TapFindingKind::kDisturbedLines} : Kinds{}));
   }
 }
+
+TEST_CASE("responses that were exchanged are told from a structure that is not reciprocal") {
+  const auto exchanged = [](std::initializer_list<std::pair<std::size_t, std::size_t>> pairs) {
+    dynamics::FrequencyResponse frf = tap(usual_lines());
+    for (const auto& [a, b] : pairs) std::swap(frf.entries[a].h, frf.entries[b].h);
+    return frf;
+  };
+  // xx, xy, yx, yy: responses to the force along x, along y, and to both.
+  const TapFinding x = the(TapFindingKind::kExchanged, exchanged({{0, 2}}));
+  CHECK(x.entry == kXx);
+  CHECK(x.mirror == kYx);
+  CHECK(x.least < 0.03);
+  CHECK(x.most > 0.3);
+  CHECK(the(TapFindingKind::kExchanged, exchanged({{1, 3}})).entry == kXy);
+  CHECK(the(TapFindingKind::kBothExchanged, exchanged({{0, 2}, {1, 3}})).most > 0.2);
+  // Not reciprocal either way.
+  const auto scaled = kinds_on(changed(1, [](Complex h, double) { return 1.5 * h; }));
+  CHECK(scaled == Kinds{TapFindingKind::kNotReciprocal});
+}
