@@ -32,7 +32,6 @@ namespace stablecut {
 namespace {
 
 constexpr int kHighestOrder = 40;  // of the stabilization diagram, pole pairs
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class FitModes : public cli::Tool {
  public:
@@ -100,9 +99,7 @@ class FitModes : public cli::Tool {
     const bool band_chosen = measurement_.band_is_chosen();
     for (const modal::TapFinding& finding : tap.findings)
       warn(input_name_ + ": " + words_of(finding, band_chosen));
-    dynamics::FrequencyResponse used = dynamics::without_lines(measured, tap.disturbed_lines);
-    if (!band_chosen)
-      used = dynamics::within_band(used, std::nextafter(tap.usable_from_hz, kInfinity), kInfinity);
+    const dynamics::FrequencyResponse used = modal::usable_part(measured, tap, band_chosen);
     const modal::ModalFit result = fitted(used);
     for (const modal::FitFinding& finding : result.findings) {
       const std::string text = input_name_ + ": " + words_of(finding);

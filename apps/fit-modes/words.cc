@@ -88,7 +88,7 @@ std::string words_of(const modal::TapFinding& finding, bool band_chosen) {
       return name +
              ": the same value on every line: a dead channel; modes that follow from it are not measured";
     case modal::TapFindingKind::kNothingButNoise:
-      return name + ": nothing but noise: a dead channel, or uncoupled directions; it tells the fit nothing";
+      return name + ": nothing but noise: a dead channel, or uncoupled directions; left out of the fit";
     case modal::TapFindingKind::kDrift:
       return "below " + number(finding.hi_hz) + " Hz " + name +
              " rises towards 0 Hz as no structure does (noise, or an imaginary part above 0): integrated "

@@ -28,7 +28,7 @@ TEST_CASE("what a tap shows about itself, in words") {
   check({.kind = TapFindingKind::kConstantEntry, .entry = kXy},
         "Hxy: the same value on every line: a dead channel; modes that follow from it are not measured");
   check({.kind = TapFindingKind::kNothingButNoise, .entry = kYx},
-        "Hyx: nothing but noise: a dead channel, or uncoupled directions; it tells the fit nothing");
+        "Hyx: nothing but noise: a dead channel, or uncoupled directions; left out of the fit");
   check({.kind = TapFindingKind::kDrift, .entry = kXx, .hi_hz = 65.4},
         "below 65.4 Hz Hxx rises towards 0 Hz as no structure does (noise, or an imaginary part above 0): "
         "integrated drift of the sensor; left out of the fit (--band says otherwise)");

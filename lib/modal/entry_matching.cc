@@ -266,6 +266,10 @@ FitData mended(FitData data, const EntryMismatch& mismatch) {
   return data;
 }
 
+bool matters(const EntryMismatch& mismatch) {
+  return mismatch.factor == 1 || std::abs(std::log(mismatch.factor)) >= kLeastScale;
+}
+
 double best_delay(double highest, const std::function<double(double)>& value) {
   const double step = std::max(kTwoPi / (kStepsPerPeriod * highest), kMostDelay / kMostTrials);
   double best = 0, most = value(0);

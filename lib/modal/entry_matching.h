@@ -23,6 +23,9 @@ struct EntryMismatch {
 /// The data without the mismatch; weights go with a factor.
 FitData mended(FitData data, const EntryMismatch& mismatch);
 
+/// Whether a factor is off by as much as a suggested one has to be; a delay always matters.
+bool matters(const EntryMismatch& mismatch);
+
 /// The delay (s, of either sign, up to 6 ms) at which a function is largest. `highest` (rad/s) is that of the
 /// curves behind it.
 double best_delay(double highest, const std::function<double(double)>& value);

@@ -203,6 +203,7 @@ std::vector<EntryMismatch> proved_mismatches(const GroupFit& fit, const CurveVar
     }
     if (!best) break;
     best = proof.completed(now, *best);
+    if (!matters(best->mismatch)) break;
     proved.push_back(best->mismatch);
     now = std::move(best->fit);
   }

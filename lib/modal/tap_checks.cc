@@ -31,6 +31,7 @@ constexpr std::ptrdiff_t kTurningWindows = 5;
 constexpr double kRisingSlope = 0.5, kFallingSlope = -2.5;  // of log |H| over log frequency
 // Relative difference of mirrored entries that is said, also in units of what noise alone would make.
 constexpr double kNotReciprocalShare = 0.1, kNotReciprocalNoises = 3;
+constexpr double kOpposite = 0.3;  // of the sum of mirrored entries, below which one has the other sign
 // Coherence is looked at where |H| is this part of its median; it is poor on one line in kPoorLines.
 constexpr double kPoorCoherenceLimit = 0.8, kResponding = 0.3;
 constexpr std::size_t kPoorLines = 20;
@@ -157,27 +158,6 @@ void check_signs(const std::vector<Channel>& channels, double usable_from_hz, Fi
   }
 }
 
-// Two entries H_ij and H_ji on the lines on which both stand 10 dB above their noise.
-struct MirrorComparison {
-  std::vector<double> cosine;      // of the angle between the two
-  std::vector<double> difference;  // |H_ij - H_ji| over |H_ij| + |H_ji|
-  std::vector<double> noise;       // what the noise alone makes of that
-};
-
-void compare_mirrors(const Eigen::VectorXd& hz, const Channel& a, const Channel& b, double usable_from_hz,
-                     MirrorComparison& comparison) {
-  for (Eigen::Index i = 0; i < hz.size(); ++i) {
-    const Complex of_a = a.entry->h[i], of_b = b.entry->h[i];
-    const double clear = kNoiseShare * std::min(std::abs(of_a), std::abs(of_b));
-    if (hz[i] <= usable_from_hz || clear * clear < std::max(a.variance[i], b.variance[i]) || clear == 0)
-      continue;
-    const double sizes = std::abs(of_a) + std::abs(of_b);
-    comparison.cosine.push_back((std::conj(of_a) * of_b).real() / (std::abs(of_a) * std::abs(of_b)));
-    comparison.difference.push_back(std::abs(of_a - of_b) / sizes);
-    comparison.noise.push_back(std::sqrt(a.variance[i] + b.variance[i]) / sizes);
-  }
-}
-
 const Channel* find(const std::vector<Channel>& channels, const std::string& response,
                     const std::string& reference) {
   const auto at = std::find_if(channels.begin(), channels.end(), [&](const Channel& channel) {
@@ -186,50 +166,65 @@ const Channel* find(const std::vector<Channel>& channels, const std::string& res
   return at == channels.end() || at->dead ? nullptr : &*at;
 }
 
-// By how much these would differ as mirror images, and whether that is more than noise and a usual structure
-// make.
-struct MirrorDifference {
-  double difference = 0, noise = 0;
-  bool stands_out() const {
-    return difference >= std::max(kNotReciprocalShare, kNotReciprocalNoises * noise);
-  }
+// Two entries as mirror images, on the lines on which both stand 10 dB above their noise.
+struct MirrorComparison {
+  std::vector<double> difference;  // |H_ij - H_ji| over |H_ij| + |H_ji|
+  std::vector<double> opposite;    // |H_ij + H_ji| over that
+  std::vector<double> noise;       // what the noise alone makes of either
 };
 
-std::optional<MirrorDifference> difference_of(MirrorComparison comparison) {
-  if (comparison.difference.empty()) return std::nullopt;
-  return MirrorDifference{median(std::move(comparison.difference)), median(std::move(comparison.noise))};
+MirrorComparison compare_mirrors(const Eigen::VectorXd& hz, const Channel& a, const Channel& b,
+                                 double usable_from_hz) {
+  MirrorComparison comparison;
+  for (Eigen::Index i = 0; i < hz.size(); ++i) {
+    const Complex of_a = a.entry->h[i], of_b = b.entry->h[i];
+    const double clear = kNoiseShare * std::min(std::abs(of_a), std::abs(of_b));
+    if (hz[i] <= usable_from_hz || clear * clear < std::max(a.variance[i], b.variance[i]) || clear == 0)
+      continue;
+    const double sizes = std::abs(of_a) + std::abs(of_b);
+    comparison.difference.push_back(std::abs(of_a - of_b) / sizes);
+    comparison.opposite.push_back(std::abs(of_a + of_b) / sizes);
+    comparison.noise.push_back(std::sqrt(a.variance[i] + b.variance[i]) / sizes);
+  }
+  return comparison;
 }
 
-// Responses to one force that were exchanged, or to both: as they are, cross entries are not mirror images;
-// exchanged they are, and the driving points take energy.
-std::optional<TapFinding> exchanged_responses(const Eigen::VectorXd& hz, const Channel& ab, const Channel& ba,
-                                              const std::vector<Channel>& channels, double usable_from_hz,
-                                              double measured) {
-  const std::string &a = ab.entry->response, &b = ab.entry->reference;
-  const Channel *aa = find(channels, a, a), *bb = find(channels, b, b);
-  if (aa == nullptr || bb == nullptr) return std::nullopt;
-  struct Exchange {
-    const Channel *mirror, *mirrored;  // cross entries then
-    const Channel *driving, *other;    // driving points then
-    TapFinding finding;
-  };
-  const Exchange exchanges[] = {
-      {&ab, aa, &ba, bb, {.kind = TapFindingKind::kExchanged, .entry = aa->name(), .mirror = ba.name()}},
-      {bb, &ba, aa, &ab, {.kind = TapFindingKind::kExchanged, .entry = ab.name(), .mirror = bb->name()}},
-      {bb, aa, &ba, &ab, {.kind = TapFindingKind::kBothExchanged, .entry = ab.name()}}};
+// The median of differences, where that is no more than noise and a usual structure make.
+std::optional<double> usual(const std::vector<double>& differences, const std::vector<double>& noise) {
+  if (differences.empty()) return std::nullopt;
+  const double difference = median(differences);
+  if (difference >= std::max(kNotReciprocalShare, kNotReciprocalNoises * median(noise))) return std::nullopt;
+  return difference;
+}
+
+// What would make mirror images of cross entries that are none as measured: the other sign of one, or that
+// the responses to one force, or to both, were exchanged, where the driving points then take energy. The
+// best of these.
+std::optional<TapFinding> mended_mirrors(const Eigen::VectorXd& hz, const Channel& ab, const Channel& ba,
+                                         const MirrorComparison& measured, const Channel* aa,
+                                         const Channel* bb, double usable_from_hz) {
   std::optional<TapFinding> best;
-  for (const Exchange& exchange : exchanges) {
-    if (std::max(positive_share(*exchange.driving, usable_from_hz, &WindowSummary::imaginary),
-                 positive_share(*exchange.other, usable_from_hz, &WindowSummary::imaginary)) > kSomeSign)
-      continue;
-    MirrorComparison comparison;
-    compare_mirrors(hz, *exchange.mirror, *exchange.mirrored, usable_from_hz, comparison);
-    const auto then = difference_of(std::move(comparison));
-    if (!then || then->stands_out() || (best && best->least <= then->difference)) continue;
-    best = exchange.finding;
-    best->least = then->difference;
-    best->most = measured;
-  }
+  const auto try_as = [&](TapFinding finding, std::optional<double> difference) {
+    if (!difference || (best && best->least <= *difference)) return;
+    best = std::move(finding);
+    best->least = *difference;
+    best->most = median(measured.difference);
+  };
+  try_as({.kind = TapFindingKind::kOppositeMirror, .entry = ab.name(), .mirror = ba.name()},
+         median(measured.opposite) < kOpposite ? std::optional(median(measured.opposite)) : std::nullopt);
+  if (aa == nullptr || bb == nullptr) return best;
+  const auto try_exchange = [&](TapFinding finding, const Channel& mirror, const Channel& mirrored,
+                                const Channel& driving, const Channel& other) {
+    for (const Channel* channel : {&driving, &other})
+      if (positive_share(*channel, usable_from_hz, &WindowSummary::imaginary) > kSomeSign) return;
+    const MirrorComparison then = compare_mirrors(hz, mirror, mirrored, usable_from_hz);
+    try_as(std::move(finding), usual(then.difference, then.noise));
+  };
+  try_exchange({.kind = TapFindingKind::kExchanged, .entry = aa->name(), .mirror = ba.name()}, ab, *aa, ba,
+               *bb);
+  try_exchange({.kind = TapFindingKind::kExchanged, .entry = ab.name(), .mirror = bb->name()}, *bb, ba, *aa,
+               ab);
+  try_exchange({.kind = TapFindingKind::kBothExchanged, .entry = ab.name()}, *bb, *aa, ba, ab);
   return best;
 }
 
@@ -237,30 +232,24 @@ void check_mirrors(const Eigen::VectorXd& hz, const std::vector<Channel>& channe
                    Findings& findings) {
   MirrorComparison all;
   for (const Channel& ab : channels) {
-    if (ab.dead || ab.entry->response >= ab.entry->reference) continue;
-    const Channel* ba = find(channels, ab.entry->reference, ab.entry->response);
-    if (ba == nullptr) continue;
-    MirrorComparison comparison;
-    compare_mirrors(hz, ab, *ba, usable_from_hz, comparison);
-    if (comparison.cosine.empty()) continue;
-    if (median(comparison.cosine) <= -kWrongSign) {
-      findings.push_back({.kind = TapFindingKind::kOppositeMirror, .entry = ab.name(), .mirror = ba->name()});
-      return;
-    }
-    const auto measured = difference_of(comparison);
-    if (measured->stands_out()) {
-      if (auto exchanged = exchanged_responses(hz, ab, *ba, channels, usable_from_hz, measured->difference)) {
-        findings.push_back(std::move(*exchanged));
+    const std::string &a = ab.entry->response, &b = ab.entry->reference;
+    const Channel* ba = find(channels, b, a);
+    if (ab.dead || a >= b || ba == nullptr) continue;
+    const MirrorComparison measured = compare_mirrors(hz, ab, *ba, usable_from_hz);
+    if (measured.difference.empty()) continue;
+    if (!usual(measured.difference, measured.noise)) {
+      if (auto finding = mended_mirrors(hz, ab, *ba, measured, find(channels, a, a), find(channels, b, b),
+                                        usable_from_hz)) {
+        findings.push_back(std::move(*finding));
         return;
       }
     }
-    all.difference.insert(all.difference.end(), comparison.difference.begin(), comparison.difference.end());
-    all.noise.insert(all.noise.end(), comparison.noise.begin(), comparison.noise.end());
+    all.difference.insert(all.difference.end(), measured.difference.begin(), measured.difference.end());
+    all.noise.insert(all.noise.end(), measured.noise.begin(), measured.noise.end());
   }
-  const auto measured = difference_of(std::move(all));
-  if (!measured || !measured->stands_out()) return;
+  if (all.difference.empty() || usual(all.difference, all.noise)) return;
   findings.push_back(
-      {.kind = TapFindingKind::kNotReciprocal, .least = measured->noise, .most = measured->difference});
+      {.kind = TapFindingKind::kNotReciprocal, .least = median(all.noise), .most = median(all.difference)});
 }
 
 // Two hits make the force vanish on lines at equal distances: one period holds most of the dips.
@@ -358,6 +347,23 @@ TapReport check_tap(const dynamics::FrequencyResponse& receptance, bool zeros_ar
   check_peak(hz, channels, usable_from_hz, report.findings);
   report.disturbed_lines = check_disturbed_lines(hz, channels, report.findings);
   return report;
+}
+
+dynamics::FrequencyResponse usable_part(dynamics::FrequencyResponse receptance, const TapReport& report,
+                                        bool from_lowest) {
+  const auto is_dead = [&](const dynamics::FrequencyResponseEntry& entry) {
+    return std::any_of(report.findings.begin(), report.findings.end(), [&](const TapFinding& finding) {
+      return finding.kind == TapFindingKind::kNothingButNoise && finding.entry.response == entry.response &&
+             finding.entry.reference == entry.reference;
+    });
+  };
+  const auto& entries = receptance.entries;
+  if (std::any_of(entries.begin(), entries.end(),
+                  [&](const auto& e) { return !e.h.isZero(0) && !is_dead(e); }))
+    std::erase_if(receptance.entries, is_dead);
+  receptance = dynamics::without_lines(receptance, report.disturbed_lines);
+  if (from_lowest) return receptance;
+  return dynamics::within_band(receptance, std::nextafter(report.usable_from_hz, HUGE_VAL), HUGE_VAL);
 }
 
 }  // namespace stablecut::modal

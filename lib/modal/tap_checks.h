@@ -62,4 +62,9 @@ struct TapReport {
 /// `zeros_are_dead`, else uncoupled. Nothing is found on fewer than 20 lines.
 TapReport check_tap(const dynamics::FrequencyResponse& receptance, bool zeros_are_dead);
 
+/// What of the receptance that was looked at a fit should use: without entries of nothing but noise (where
+/// there are others), disturbed lines and, unless `from_lowest`, the useless low end.
+dynamics::FrequencyResponse usable_part(dynamics::FrequencyResponse receptance, const TapReport& report,
+                                        bool from_lowest);
+
 }  // namespace stablecut::modal
