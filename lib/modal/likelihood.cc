@@ -1,6 +1,7 @@
 #include "modal/likelihood.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <utility>
@@ -16,6 +17,9 @@ using Complex = std::complex<double>;
 // above the band, and the standard deviations of the logarithms of both.
 constexpr double kPriorDamping = 0.05, kPriorDampingDeviation = 0.5;
 constexpr double kPriorPlace = 1.5, kPriorPlaceDeviation = 1;
+// What a mode outside the band makes of the curves at the band's nearer end, in multiples of what is measured
+// there: standard deviation. Two modes that nearly cancel would leave nothing of J^T J's digits.
+constexpr double kPriorSize = 3;
 constexpr double kLeastPriorPlace = 1e-3;  // of the highest line, where the lowest is near 0
 // What the factorization adds to the diagonal, as shares of the entry and of the largest one; it grows by
 // kRidgeGrowth until the matrix is positive definite, or the share is 1.
@@ -104,6 +108,27 @@ void add_matrix(const std::vector<CurveDerivative>& first, const std::vector<Cur
   }
 }
 
+// Root mean square of each curve's lowest and highest octave; of curves of zeros that of the largest one.
+Eigen::Matrix2Xd end_sizes(const FitData& data) {
+  const Eigen::VectorXd omega = data.s.imag();
+  const auto octave = [&](double from, double to) {
+    return ((omega.array() >= from) && (omega.array() <= to)).cast<double>().eval();
+  };
+  const Eigen::ArrayXd low = octave(data.lowest(), 2 * data.lowest()),
+                       high = octave(data.highest() / 2, data.highest());
+  Eigen::Matrix2Xd sizes(2, data.curves.size());
+  for (Eigen::Index c = 0; c < sizes.cols(); ++c) {
+    const Eigen::ArrayXd square = data.curves[c].h.array().abs2();
+    sizes.col(c) << std::sqrt((square * low).sum() / low.sum()),
+        std::sqrt((square * high).sum() / high.sum());
+  }
+  for (Eigen::Index end = 0; end < 2; ++end) {
+    const double largest = sizes.row(end).maxCoeff();
+    sizes.row(end) = (sizes.row(end).array() > 0).select(sizes.row(end), largest);
+  }
+  return sizes;
+}
+
 // From the coordinates of the table to the free parameters: their Jacobian is block diagonal.
 NormalEquations to_parameters(const ModeParameters& parameters, const Eigen::Ref<const Eigen::VectorXd>& x,
                               const NormalEquations& coordinates) {
@@ -137,7 +162,10 @@ Eigen::LLT<Eigen::MatrixXd> factorized(const Eigen::MatrixXd& matrix) {
 }  // namespace
 
 Likelihood::Likelihood(const FitData& data, const ModeParameters& parameters, std::vector<bool> out_of_band)
-    : data_(data), parameters_(parameters), residual_(data), out_of_band_(std::move(out_of_band)) {}
+    : data_(data), parameters_(parameters), residual_(data), out_of_band_(std::move(out_of_band)) {
+  if (std::find(out_of_band_.begin(), out_of_band_.end(), true) != out_of_band_.end())
+    sizes_ = end_sizes(data);
+}
 
 NormalEquations Likelihood::evaluate(const Eigen::Ref<const Eigen::VectorXd>& x, bool with_matrix) const {
   NormalEquations sums;
@@ -174,6 +202,7 @@ NormalEquations Likelihood::evaluate(const Eigen::Ref<const Eigen::VectorXd>& x,
       add_matrix(derivatives[pair.first], derivatives[pair.second], grams, sums.matrix);
     }
   }
+  add_size_priors(modes, sums, with_matrix);
   NormalEquations result = with_matrix ? to_parameters(parameters_, x, sums) : std::move(sums);
   add_priors(x, with_matrix, result);
   return result;
@@ -200,6 +229,39 @@ void Likelihood::add_priors(const Eigen::Ref<const Eigen::VectorXd>& x, bool wit
     add(at + 1,
         above ? std::log(kPriorPlace * hi) : std::log(std::max(lo / kPriorPlace, kLeastPriorPlace * hi)),
         kPriorPlaceDeviation);
+  }
+}
+
+void Likelihood::add_size_priors(const std::vector<dynamics::Mode>& modes, NormalEquations& coordinates,
+                                 bool with_matrix) const {
+  Eigen::VectorXcd slope = Eigen::VectorXcd::Zero(parameters_.coordinates_per_mode());
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    if (!out_of_band_[k]) continue;
+    const Complex pole = modes[k].pole();
+    const bool above = pole.imag() > data_.highest();
+    const Complex s(0, above ? data_.highest() : data_.lowest());
+    const Complex own = 1.0 / (s - pole), mirror = 1.0 / (s - std::conj(pole));
+    const auto first = static_cast<Eigen::Index>(k) * slope.size();
+    for (std::size_t c = 0; c < data_.curves.size(); ++c) {
+      const Curve& curve = data_.curves[c];
+      const Complex right = modes[k].psi_r[curve.response], left = modes[k].psi_l[curve.reference];
+      const double weight = std::pow(kPriorSize * sizes_(above, static_cast<Eigen::Index>(c)), -2);
+      const Complex made = right * left * own + std::conj(right * left) * mirror;
+      coordinates.chi_square += weight * std::norm(made);
+      if (!with_matrix) continue;
+      // By z of a coordinate it changes by z t g + conj(z t) g'.
+      slope.setZero();
+      const auto add = [&](Eigen::Index at, Complex t, Complex g, Complex g_mirror) {
+        slope[at] = t * g + std::conj(t) * g_mirror;
+        slope[at + 1] = Complex(0, 1) * (t * g - std::conj(t) * g_mirror);
+      };
+      add(0, right * left, own * own, mirror * mirror);
+      add(parameters_.right_at(curve.response), left, own, mirror);
+      add(parameters_.left_at(curve.reference), right, own, mirror);
+      coordinates.gradient.segment(first, slope.size()) += weight * (slope.conjugate() * made).real();
+      coordinates.matrix.block(first, first, slope.size(), slope.size()) +=
+          weight * (slope.conjugate() * slope.transpose()).real();
+    }
   }
 }
 

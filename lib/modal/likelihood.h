@@ -19,8 +19,8 @@ struct NormalEquations {
 };
 
 /// chi-square of modes and its derivatives, as functions of their free parameters. A weak prior, which is
-/// part of chi-square, holds modes outside the band near it and damped: what the curves do not tell of them
-/// must not drift.
+/// part of chi-square, holds modes outside the band near it, damped, and no larger than what is measured:
+/// what the curves do not tell of them must not drift.
 class Likelihood {
  public:
   /// `out_of_band` [modes]. Both references must outlive this.
@@ -32,11 +32,15 @@ class Likelihood {
  private:
   void add_priors(const Eigen::Ref<const Eigen::VectorXd>& x, bool with_matrix,
                   NormalEquations& result) const;
+  // At the band's nearer end a mode outside it makes a small multiple of what is measured there.
+  void add_size_priors(const std::vector<dynamics::Mode>& modes, NormalEquations& coordinates,
+                       bool with_matrix) const;
 
   const FitData& data_;
   const ModeParameters& parameters_;
   ResidualSums residual_;
   std::vector<bool> out_of_band_;
+  Eigen::Matrix2Xd sizes_;  // root mean square of each curve's octave at the lower and the upper end, m/N
 };
 
 /// Whether each mode lies outside the band of the data.

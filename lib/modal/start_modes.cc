@@ -86,7 +86,7 @@ RefinedModes with_rigid_body(const GroupFit& fit, RefinedModes start) {
       poles[kept.size() + d] =
           place * (1 + kRigidSpread * static_cast<double>(d)) * lowest * Complex(-kRigidStartDamping, 1);
     RefinedModes trial = fit.refine(modes_at(fit.data, poles), kStartEffort);
-    const double saved = static_cast<double>(dropped - bodies) * price_of_mode(fit, trial, trial);
+    const double saved = static_cast<double>(dropped - bodies) * price_of_mode(fit, start, start);
     if (trial.chi_square < start.chi_square + saved) return trial;
   }
   return start;
