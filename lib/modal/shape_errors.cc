@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <iterator>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -20,6 +22,9 @@ constexpr double kSatelliteDecay = 3;
 // A mode that makes less than this share of what is measured at its place, in every curve, may imitate what
 // no mode has.
 constexpr double kImitation = 0.1;
+// Such a mode is one of these where its decay is this many times another's at its place, and both responses
+// are so parallel (modal assurance criterion).
+constexpr double kLeastDecay = 2, kParallel = 0.95;
 // Exponent of the probability that chi-square falls by chance as much as a shape is said to need.
 constexpr double kChanceGain = 6;
 
@@ -33,6 +38,19 @@ bool may_imitate(const FitData& data, const std::vector<dynamics::Mode>& modes, 
     const double own = std::abs(mode.psi_r[curve.response] * mode.psi_l[curve.reference] / pole.real());
     return own <= kImitation * curve_of(modes, curve, near.s).norm() / std::sqrt(3);
   });
+}
+
+// A weak mode at the place of another, as a resonance's shape that is no mode's leaves it.
+bool is_satellite(const FitData& data, const std::vector<dynamics::Mode>& modes, const dynamics::Mode& mode) {
+  const Complex own = mode.pole();
+  return may_imitate(data, modes, mode) &&
+         std::any_of(modes.begin(), modes.end(), [&](const dynamics::Mode& other) {
+           const Complex pole = other.pole();
+           const double parallel = std::norm(mode.psi_r.dot(other.psi_r)) /
+                                   (mode.psi_r.squaredNorm() * other.psi_r.squaredNorm());
+           return own.real() < kLeastDecay * pole.real() && std::abs((own - pole).imag()) < -own.real() &&
+                  parallel > kParallel;
+         });
 }
 
 // Mode k with the residue psi_r psi_l^T as well, whose psi_r is parallel to its own: the change, in
@@ -82,21 +100,22 @@ std::optional<Eigen::VectorXd> solved(const Eigen::MatrixXd& matrix, const Eigen
   return solution.allFinite() ? std::optional(std::move(solution)) : std::nullopt;
 }
 
-// The columns `first` to `first + width` of which the first `own` parameters, the modes', know nothing.
+// The columns at these places, of which the first `own` parameters, the modes', know nothing.
 std::optional<Missing> missing_columns(const NormalEquations& with, const Eigen::LLT<Eigen::MatrixXd>& base,
-                                       Eigen::Index own, Eigen::Index first, Eigen::Index width) {
+                                       Eigen::Index own, const std::vector<Eigen::Index>& columns) {
   // Directions without a curve have neither slope nor change.
   std::vector<Eigen::Index> at;
-  for (Eigen::Index p = first; p < first + width; ++p)
-    if (with.matrix(p, p) > 0) at.push_back(p);
+  std::copy_if(columns.begin(), columns.end(), std::back_inserter(at),
+               [&](Eigen::Index p) { return with.matrix(p, p) > 0; });
   const Eigen::MatrixXd cross = with.matrix(Eigen::seqN(0, own), at);
   const Eigen::MatrixXd adapted = base.solve(cross);
   const Eigen::VectorXd slope = with.gradient(at) - adapted.transpose() * with.gradient.head(own);
   const auto change = solved(with.matrix(at, at) - cross.transpose() * adapted, -slope);
   if (!change) return std::nullopt;
-  Missing missing{-change->dot(slope), -adapted * *change, Eigen::VectorXd::Zero(width)};
-  for (std::size_t a = 0; a < at.size(); ++a)
-    missing.change[at[a] - first] = (*change)[static_cast<Eigen::Index>(a)];
+  Missing missing{-change->dot(slope), -adapted * *change, Eigen::VectorXd::Zero(columns.size())};
+  for (std::size_t c = 0, a = 0; c < columns.size() && a < at.size(); ++c)
+    if (columns[c] == at[a])
+      missing.change[static_cast<Eigen::Index>(c)] = (*change)[static_cast<Eigen::Index>(a++)];
   return missing;
 }
 
@@ -202,18 +221,22 @@ void add_missing(const FitData& data, const ModeParameters& parameters,
   const Eigen::LLT<Eigen::MatrixXd> base(with.matrix.topLeftCorner(own, own));
   if (base.info() != Eigen::Success) return;
   std::vector<std::optional<Missing>> satellites;
-  double gain = 0, parameters_of_all = 0;
+  std::vector<Eigen::Index> all;
   bool any = false;
   for (std::size_t i = 0; i < of.size(); ++i) {
-    const Eigen::Index at = own + static_cast<Eigen::Index>(i) * extended.per_mode();
-    satellites.push_back(missing_columns(with, base, own, at + extended.per_mode() - width, width));
-    if (!satellites.back()) continue;
-    gain += satellites.back()->gain;
-    parameters_of_all += static_cast<double>(width);
-    any = any || satellites.back()->gain >
-                     chance_gain(static_cast<double>(width)) + std::log(static_cast<double>(of.size()));
+    std::vector<Eigen::Index> columns(width);
+    std::iota(columns.begin(), columns.end(),
+              own + static_cast<Eigen::Index>(i + 1) * extended.per_mode() - width);
+    satellites.push_back(missing_columns(with, base, own, columns));
+    any =
+        any || (satellites.back() && satellites.back()->gain > chance_gain(static_cast<double>(width)) +
+                                                                   std::log(static_cast<double>(of.size())));
+    all.insert(all.end(), columns.begin(), columns.end());
   }
-  if (!any && gain < chance_gain(parameters_of_all)) return;
+  if (!any) {
+    const auto together = missing_columns(with, base, own, all);
+    if (!together || together->gain < chance_gain(static_cast<double>(all.size()))) return;
+  }
   const std::vector<dynamics::Mode> unpacked = extended.unpack(x);
   for (std::size_t i = 0; i < of.size(); ++i) {
     if (!satellites[i] || satellites[i]->gain < static_cast<double>(width) / 2) continue;
@@ -232,9 +255,13 @@ std::vector<Eigen::VectorXd> shape_errors(const FitData& data, const ModeParamet
                                           const Eigen::VectorXd& x, const NormalEquations& normal) {
   const std::vector<dynamics::Mode> modes = parameters.unpack(x);
   std::vector<Eigen::VectorXd> errors;
-  add_imitations(data, parameters, x, normal, modes, errors);
   add_missing(data, parameters, modes, errors);
   add_hysteresis(data, parameters, x, normal, modes, errors);
+  // Weak modes are what they seem, unless some resonance shows that it has no mode's shape.
+  if (!errors.empty() || std::any_of(modes.begin(), modes.end(), [&](const dynamics::Mode& mode) {
+        return data.in_band(mode.pole()) && is_satellite(data, modes, mode);
+      }))
+    add_imitations(data, parameters, x, normal, modes, errors);
   return errors;
 }
 
