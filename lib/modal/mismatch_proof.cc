@@ -101,13 +101,10 @@ class Proof {
     return Mended{mismatch, std::move(*after), gain};
   }
 
-  // With the modes that a search finds in the mended curves the mismatch is surer still.
-  Mended completed(const GroupFit& now, const Mended& mended_now) const {
-    Mended result = mended_now;
-    result.fit = searched(mended(now.data, result.mismatch), given_);
-    GroupFit improved = result.fit;
-    estimate(improved, result.mismatch);
-    return result;
+  // What a search finds in the mended curves, for the next mismatch to be looked for. The mismatch stays: of
+  // what is left of it the modes of a search are an imitation.
+  GroupFit without(const GroupFit& now, const EntryMismatch& mismatch) const {
+    return searched(mended(now.data, mismatch), given_);
   }
 
  private:
@@ -201,11 +198,9 @@ std::vector<EntryMismatch> proved_mismatches(const GroupFit& fit, const CurveVar
       std::optional<Mended> better = proof.of(now, suggested);
       if (better && (!best || better->gain > best->gain)) best = std::move(better);
     }
-    if (!best) break;
-    best = proof.completed(now, *best);
-    if (!matters(best->mismatch)) break;
+    if (!best || !matters(best->mismatch)) break;
     proved.push_back(best->mismatch);
-    now = std::move(best->fit);
+    now = proof.without(now, best->mismatch);
   }
   return proved;
 }
