@@ -12,7 +12,7 @@ namespace stablecut::modal {
 namespace {
 
 // Of refinements between changes of the weights, and of the last one.
-constexpr Effort kBetween{60, 0.01}, kLast{240, 1e-5};
+constexpr Effort kBetween{60, 0.01}, kLast{960, 1e-5};
 constexpr int kParts = 4;    // of a refinement that may be given up
 constexpr int kRescues = 3;  // modes that may be added before the noise is given up
 
