@@ -52,6 +52,7 @@ same_for_every_tool() {
   check "$tool: the manual page has every option" test -z "$(comm -23 .options <(grep -oE -- '--[a-z0-9-]+' .page | sort -u) | tee .missing)" -a -s .options
   check "$tool: and explains no other: $(cat .missing)" test -z "$(grep -A1 '^\.TP' .page | grep -E '^\.BR? "?-' | grep -oE -- '--[a-z0-9-]+' |
     sort -u | comm -13 .options -)"
+  check "$tool: the manual page says where the fields of documents are" grep -q '^\.BR stablecut (5)' "$SOURCE/apps/$tool/$tool.1"
   check "$tool: the manual page has examples" grep -q '^\.SH EXAMPLES' .page
   "$tool" --print-schema >.schema
   check_jq "$tool --print-schema is $kind" .schema '.properties.format.const == "stablecut/'"$kind"'/1"'
