@@ -362,6 +362,7 @@ int Tool::parse(int argc, char** argv) {
 int Tool::main(int argc, char** argv) {
   keep_memory();
   install_signal_handlers();
+  install_memory_handler(name_);
   const auto end = [this](ExitStatus status, const std::string& text) {
     if (!text.empty()) say(name_, text);
     return static_cast<int>(status);
