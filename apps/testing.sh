@@ -52,6 +52,7 @@ same_for_every_tool() {
   check "$tool: the manual page has every option" test -z "$(comm -23 .options <(grep -oE -- '--[a-z0-9-]+' .page | sort -u) | tee .missing)" -a -s .options
   check "$tool: and explains no other: $(cat .missing)" test -z "$(grep -A1 '^\.TP' .page | grep -E '^\.BR? "?-' | grep -oE -- '--[a-z0-9-]+' |
     sort -u | comm -13 .options -)"
+  check "$tool: the manual page says where the fields of documents are" grep -q '^\.BR stablecut (5)' "$SOURCE/apps/$tool/$tool.1"
   check "$tool: the manual page has examples" grep -q '^\.SH EXAMPLES' .page
   "$tool" --print-schema >.schema
   check_jq "$tool --print-schema is $kind" .schema '.properties.format.const == "stablecut/'"$kind"'/1"'
@@ -61,6 +62,8 @@ same_for_every_tool() {
   for shell in bash zsh; do "$tool" --print-completion $shell >.completion-$shell; done
   check "$tool: bash completes its options" test "$(bash -c '. ./.completion-bash
     COMP_WORDS=('"$tool"' --no-prov) COMP_CWORD=1; _'"${tool//-/_}"'; echo "${COMPREPLY[*]}"')" = --no-provenance
+  check "$tool: bash completes a value behind =" test "$(bash -c '. ./.completion-bash
+    COMP_WORDS=('"$tool"' --print-completion = ba) COMP_CWORD=3; _'"${tool//-/_}"'; echo "${COMPREPLY[*]}"')" = bash
   check "$tool: zsh is told of every option" test "$(grep -oE -- "'\*--[a-z0-9-]+" .completion-zsh | cut -c3- | sort -u)" = \
     "$("$tool" --help | grep -oE -- "^ +-[^ ]+" | grep -oE -- "--[a-z0-9-]+" | sort -u)"
   refused 64 "^$tool: --threads: 0: expected" "$tool" --threads 0

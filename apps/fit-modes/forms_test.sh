@@ -107,3 +107,11 @@ fit-modes --convert --to uff "$data/carbide-tap.json" 2>.err | fit-modes --conve
 check_jq "a document as universal file and back" carbide.json '.quantity == "receptance" and ([.h[] | .response + .reference] == ["xx", "yy"])'
 jq '.h[0].response = "slope_x"' truth.json >slope.json
 refused 65 '^fit-modes: slope.json: slope_x: a universal file takes the directions x, y and z' fit-modes --convert --to uff slope.json
+
+# What editors of Windows write: a byte order mark is passed over, UTF-16 is named.
+{ printf '\xef\xbb\xbf'; cat truth.json; } >marked.json
+fit-modes --convert --no-provenance marked.json -o unmarked.json
+check "a document with a byte order mark" cmp unmarked.json <(fit-modes --convert --no-provenance truth.json)
+{ printf '\xff\xfe'; iconv -t UTF-16LE truth.json; } >wide.json
+refused 65 '^fit-modes: wide.json: UTF-16 text: expected UTF-8' fit-modes --convert wide.json
+refused 65 '^fit-modes: wide.json: UTF-16 text: expected UTF-8' fit-modes --synthesize 1:2:3 wide.json

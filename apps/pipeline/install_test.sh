@@ -20,7 +20,7 @@ if command -v make >/dev/null; then
   check "the studies find their tools and data" installed make -C "$share/scripts/studies" OUT="$PWD/studies" -n report >/dev/null
 fi
 check "every tool's page in the manual" test "$(cd "$prefix/share/man/man1" && echo *.1)" = "$(cd "$prefix/bin" && for tool in *; do [ -L "$tool" ] || echo "$tool.1"; done | xargs)"
-check "and of the whole" test -s "$prefix/share/man/man7/stablecut.7"
+check "and of the whole" test -s "$prefix/share/man/man7/stablecut.7" -a -s "$prefix/share/man/man5/stablecut.5"
 for tool in "$prefix"/bin/*; do
   [ -L "$tool" ] || { name=$(basename "$tool")
     check "$name: completion" cmp <(installed "$name" --print-completion bash) "$prefix/share/bash-completion/completions/$name"; }

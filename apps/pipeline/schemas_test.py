@@ -1,4 +1,4 @@
-"""Every schema is a schema; bundled documents and what the tools write validate; what is wrong does not."""
+"""Every schema is a schema, and its fields are in the manual; bundled documents and what the tools write validate; what is wrong does not."""
 
 import json
 import os
@@ -45,6 +45,14 @@ for kind, schema in schemas.items():
     for tool in ("fit-modes", "sdm-lobes", "joint-stiffness", "best-pose", "rcsa-couple", "cut-force"):
         printed = run(tool, "--print-schema", kind)
         check(f"{tool} prints {kind}", [] if printed == schema else [ValueError("another schema")])
+
+# Each field has a description, and all are in stablecut(5), to which every tool's page sends its reader.
+with tempfile.TemporaryDirectory() as folder:
+    page = pathlib.Path(folder) / "page"
+    written = subprocess.run([source / "scripts/derive/document_fields.py", page], capture_output=True, text=True)
+    check("every field has a description", [ValueError(written.stderr)] if written.returncode else [])
+    check("stablecut.5 is what scripts/derive/document_fields.py writes",
+          [] if page.read_text() == (source / "apps/stablecut.5").read_text() else [ValueError("another page")])
 
 # Documents have a format; the other files are the papers' and the controller's numbers.
 bundled = [path for path in (source / "testdata").rglob("*.json") if "format" in json.loads(path.read_text())]

@@ -91,7 +91,7 @@ class SdmLobes : public cli::Tool {
       return read_input(path, form);
     };
     cut_.read(reader);
-    cut_.check_method(method_);
+    cut_.check(method_, [this](const auto& text) { warn(text); });
     surface_.check(cut_.cut(), method_, !limit_only_ && !parts_.used(), 1 + more_tables_.size());
     const milling::RunRequest asked = run_.request(cut_.cut());
     const document::Input table = read_main_input(cli::InputForm::kJson);

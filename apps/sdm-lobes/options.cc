@@ -4,6 +4,7 @@
 #include <cctype>
 #include <string_view>
 
+#include "base/number_text.h"
 #include "base/units.h"
 #include "cli/exit_status.h"
 #include "document/kinds/modal_table_json.h"
@@ -12,6 +13,8 @@
 
 namespace stablecut {
 namespace {
+
+constexpr double kLeastRatio = 0.01;  // Kr/Kt of metals is 0.1 to 1
 
 bool is_positive(double value) { return value > 0; }
 bool is_not_negative(double value) { return value >= 0; }
@@ -73,11 +76,15 @@ void CutOptions::read(const Reader& read_input) {
   }
 }
 
-void CutOptions::check_method(const std::string& method) const {
+void CutOptions::check(const std::string& method, const std::function<void(const std::string&)>& warn) const {
   const milling::Cutter& cutter = cut_.cutter;
   cli::refuse_if(
       method == "sdm" && (!cutter.equal_pitch() || cutter.changes_with_depth() || cutter.damping_n_per_m > 0),
       "--method: sdm: expected straight teeth of equal pitch without corners and process damping");
+  if (cutter.kr_n_per_m2 > 0 && cutter.kr_n_per_m2 < kLeastRatio * cutter.kt_n_per_m2) {
+    warn(source_.name + ": /kr_n_per_mm2: " + number_text(n_per_mm2_from_n_per_m2(cutter.kr_n_per_m2)) +
+         ": next to nothing beside Kt: a ratio Kr/Kt has to be multiplied by Kt");
+  }
 }
 
 document::Json CutOptions::as_used(const Range& speed_rpm, const Range& depth_mm) const {

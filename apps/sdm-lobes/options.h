@@ -28,8 +28,8 @@ class CutOptions {
   /// where one of them is missing then or its value is wrong, DataError for what a file holds.
   void read(const Reader& read_input);
 
-  /// Throws WrongUsage where the method is not one for this cutter.
-  void check_method(const std::string& method) const;
+  /// Throws WrongUsage where the method is not one for this cutter; warns of coefficients in another form.
+  void check(const std::string& method, const std::function<void(const std::string&)>& warn) const;
   const document::CutDocument& cut() const { return cut_; }
   /// The document with the chart that is computed in its place, without format and provenance. Throws
   /// NoAnswer where edges meet within it.

@@ -225,3 +225,8 @@ doubt 'lies outside the measured band' '.modes[].out_of_band = true'
 doubt 'has a damping ratio of 1e-06, as no structure has' '.modes[9].damping_ratio = 1e-6'
 sdm-lobes "$table" --cut "$cut" "${small[@]}" --limit-only -o out.json 2>err
 check "nothing is said of the others, not $(cat err)" test ! -s err
+
+# A radial coefficient that is written as its share of the tangential one.
+jq '.kr_n_per_mm2 = 0.3' "$cut" >ratio.json
+sdm-lobes "$table" --cut ratio.json "${small[@]}" --limit-only -o out.json 2>err
+check "a ratio Kr/Kt: said, not $(cat err)" grep -q '^sdm-lobes: warning: ratio.json: /kr_n_per_mm2: 0.3: .*a ratio Kr/Kt' err

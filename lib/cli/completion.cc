@@ -53,6 +53,9 @@ std::string bash_text(const std::vector<Completed>& options, const std::string& 
   }
   return "# bash completion for " + tool + ".\n" + function +
          "() {\n  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}\n"
+         // --option=value is three words.
+         "  if [[ $word == = ]]; then word=; elif [[ $before == = ]]; then before=${COMP_WORDS[COMP_CWORD - "
+         "2]}; fi\n"
          "  case $before in\n" +
          cases + "  esac\n  if [[ $word == -* ]]; then\n    mapfile -t COMPREPLY < <(compgen -W '" + all +
          "' -- \"$word\")\n  else\n    mapfile -t COMPREPLY < <(compgen -f -- \"$word\")\n  fi\n}\n"
@@ -81,8 +84,11 @@ std::string zsh_text(const std::vector<Completed>& options, const std::string& t
                               : !option.words.empty() ? ":word:(" + option.words + ")"
                               : option.takes_file     ? ":file:_files"
                                                       : ":value:";
-    for (const std::string& name : option.names)
-      text += "  '*" + name + "[" + zsh_quoted(option.description) + "]" + value + "' \\\n";
+    for (const std::string& name : option.names) {
+      const bool may_be_joined = option.takes_value && name.starts_with("--");
+      text += "  '*" + name + (may_be_joined ? "=" : "") + "[" + zsh_quoted(option.description) + "]" +
+              value + "' \\\n";
+    }
   }
   return text + "  '*:input:_files'\n";
 }

@@ -9,9 +9,12 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <filesystem>
+#include <new>
 #include <system_error>
 
 #include "cli/exit_status.h"
@@ -37,11 +40,29 @@ void forget_unfinished(const char* name) {
   }
 }
 
-extern "C" void remove_unfinished_and_exit(int signal) {
+void remove_unfinished() {
   for (auto& slot : unfinished) {
     if (const char* name = slot.load()) unlink(name);
   }
+}
+
+extern "C" void remove_unfinished_and_exit(int signal) {
+  remove_unfinished();
   _exit(128 + signal);
+}
+
+std::string out_of_memory;  // the line that says so, made while there is memory
+
+[[noreturn]] void end_without_memory() {
+  try {
+    if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc&) {
+    remove_unfinished();
+    std::fputs(out_of_memory.c_str(), stderr);
+    _exit(static_cast<int>(ExitStatus::kInternal));
+  } catch (...) {
+  }
+  std::abort();
 }
 
 [[noreturn]] void fail(ExitStatus status, const std::string& name, const char* what) {
@@ -164,6 +185,11 @@ void install_signal_handlers() {
     action.sa_handler = remove_unfinished_and_exit;
     sigaction(signal, &action, nullptr);
   }
+}
+
+void install_memory_handler(const std::string& tool) {
+  out_of_memory = tool + ": out of memory\n";
+  std::set_terminate(end_without_memory);
 }
 
 }  // namespace stablecut::cli

@@ -37,4 +37,8 @@ class OutputSet {
 /// and a closed pipe is an error of the write.
 void install_signal_handlers();
 
+/// From now on memory that ends where nothing can be thrown (the JSON library's moves and destructors) ends
+/// the process with a line of that tool and 70, as anywhere else.
+void install_memory_handler(const std::string& tool);
+
 }  // namespace stablecut::cli

@@ -38,7 +38,8 @@ void say(const std::string& name, const std::string& text) {
   std::fprintf(stderr, "%s: %s\n", name.c_str(), line.c_str());
 }
 
-bool looks_like_json(const std::string& text) {
+bool looks_like_json(std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // as Windows writes UTF-8
   const auto first = text.find_first_not_of(" \t\r\n");
   return first != std::string::npos && (text[first] == '{' || text[first] == '[');
 }
@@ -361,6 +362,7 @@ int Tool::parse(int argc, char** argv) {
 int Tool::main(int argc, char** argv) {
   keep_memory();
   install_signal_handlers();
+  install_memory_handler(name_);
   const auto end = [this](ExitStatus status, const std::string& text) {
     if (!text.empty()) say(name_, text);
     return static_cast<int>(status);

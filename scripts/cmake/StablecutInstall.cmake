@@ -1,6 +1,6 @@
 # What `cmake --install` puts where, and the Debian package that `scripts/package` makes of it:
 #   bin/                       the tools, the plot scripts, import-urdf, stablecut-report
-#   share/man/man1, man7       their pages, and one of the whole
+#   share/man/man1, man5, man7 their pages, one of all fields of documents, and one of the whole
 #   share/bash-completion, share/zsh   completion, written by the tools from their own options
 #   share/stablecut/           scripts, schemas and example data in the layout of the checkout
 #   include/, lib/             the rooms as a library: find_package(stablecut), pkg-config stablecut
@@ -14,6 +14,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/schemas DESTINATION ${share} FILES_MATCH
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/testdata DESTINATION ${share} PATTERN fuzz EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/LICENSE
   ${PROJECT_SOURCE_DIR}/REFERENCES.md TYPE DOC)
+install(FILES ${PROJECT_SOURCE_DIR}/apps/stablecut.5 DESTINATION ${CMAKE_INSTALL_MANDIR}/man5)
 install(FILES ${PROJECT_SOURCE_DIR}/apps/stablecut.7 DESTINATION ${CMAKE_INSTALL_MANDIR}/man7)
 file(GLOB commands CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scripts/plot-* ${PROJECT_SOURCE_DIR}/scripts/report
   ${PROJECT_SOURCE_DIR}/scripts/import-urdf)

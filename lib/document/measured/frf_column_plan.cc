@@ -15,8 +15,9 @@ using Names = std::vector<std::optional<ColumnName>>;
 // The plan that a header's names make.
 class HeaderReader {
  public:
-  HeaderReader(const Source& source, long line, const FrfChoice& choice) : source_(source), choice_(choice) {
-    plan_.header_line = line;
+  HeaderReader(const Source& source, const TableRow& header, const FrfChoice& choice)
+      : source_(source), header_(header), choice_(choice) {
+    plan_.header_line = header.line;
   }
 
   ColumnPlan read(const Names& names, std::size_t width) {
@@ -69,8 +70,11 @@ class HeaderReader {
       if (polar) return;
       entry.parts = {kNoColumn, kNoColumn};
     }
-    if (entry.parts[second ? 1 : 0] != kNoColumn)
-      fail(entry.response + entry.reference, "expected each part once");
+    if (const std::size_t before = entry.parts[second ? 1 : 0]; before != kNoColumn) {
+      fail('"' + header_.fields[before] + "\", \"" + header_.fields[column] + '"',
+           "both are " + entry.response + entry.reference +
+               ": expected names with the directions of response and force, as xx_re and yy_re");
+    }
     entry.parts[second ? 1 : 0] = column;
     entry.polar = polar;
     // A unit row may say dB too.
@@ -134,6 +138,7 @@ class HeaderReader {
   }
 
   const Source& source_;
+  const TableRow& header_;
   const FrfChoice& choice_;
   ColumnPlan plan_;
   bool has_frequency_ = false;
@@ -225,7 +230,7 @@ ColumnPlan plan_columns(const Source& source, const std::vector<TableRow>& rows,
       if (names[c] && names[c]->unit.empty()) names[c]->unit = units[c];
     }
   }
-  plan = HeaderReader(source, rows[names_row].line, choice).read(names, number_of_columns(rows[first]));
+  plan = HeaderReader(source, rows[names_row], choice).read(names, number_of_columns(rows[first]));
   // The names may tell the frequency alone.
   if (plan.entries.empty()) entries_by_count(source, rows[first], plan);
   return plan;

@@ -132,6 +132,10 @@ TEST_CASE("a bad line is named") {
             .find("f: line 1: xx: expected a column of the real and one of") == 0);
   CHECK(complaint("f,Magnitude,b\n1,2,3\n")
             .find("f: line 1: xx: expected a column of the magnitude and one of") == 0);
+  CHECK(
+      complaint("f,TipX_Re,TipX_Im,TipY_Re,TipY_Im\n1,2,3,4,5\n") ==
+      "f: line 1: \"TipX_Re\", \"TipY_Re\": both are xx: expected names with the directions of response and "
+      "force, as xx_re and yy_re");
   CHECK(complaint("f,Re,Im,Coh\n1,2,3,1.5\n") == "f: line 2: 1.5: expected a coherence from 0 to 1");
 }
 

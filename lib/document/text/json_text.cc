@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "document/text/data_error.h"
+#include "document/text/plain_text.h"
 
 namespace stablecut::document {
 namespace {
@@ -192,6 +193,7 @@ void append(std::string& out, const Json& value, std::size_t indent) {
 }  // namespace
 
 Json parse_json(const Source& source) {
+  if (is_utf16(source.text)) throw DataError(source.name, "", "UTF-16 text", "expected UTF-8");
   Builder builder(source);
   Json::sax_parse(source.text, &builder);
   return builder.take();

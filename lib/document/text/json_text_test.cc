@@ -68,3 +68,9 @@ TEST_CASE("documents are nested, but not without end") {
   CHECK(json_text(parse_json({"f", nested(150)})).size() > 300);
   CHECK_THROWS_WITH(parse_json({"f", nested(201)}), Catch::Contains("nested too deeply"));
 }
+
+TEST_CASE("UTF-8 with and without its mark, but no UTF-16") {
+  CHECK(parse_json({"f", "\xEF\xBB\xBF[1]"}) == Json::array({1}));
+  const std::string wide("\xFF\xFE[\0", 4);
+  CHECK_THROWS_WITH(parse_json({"f", wide}), "f: UTF-16 text: expected UTF-8");
+}

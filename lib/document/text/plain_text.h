@@ -12,6 +12,9 @@ bool is_blank(char c);
 /// The text without blanks at its ends.
 std::string_view trimmed(std::string_view text);
 
+/// True where the text begins with a byte order mark of UTF-16.
+bool is_utf16(std::string_view text);
+
 /// Letters of ASCII in lower case.
 std::string lower(std::string text);
 

@@ -88,9 +88,7 @@ std::string plain_minus(std::string field) {
 std::vector<TableRow> table_rows(const Source& source) {
   std::string_view rest = source.text;
   if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);
-  if (rest.starts_with("\xFF\xFE") || rest.starts_with("\xFE\xFF")) {
-    throw DataError(source.name, "", "UTF-16 text", "expected UTF-8");
-  }
+  if (is_utf16(rest)) throw DataError(source.name, "", "UTF-16 text", "expected UTF-8");
   const char line_end = rest.find('\n') == std::string_view::npos ? '\r' : '\n';  // old Macintosh files
   std::vector<Line> lines;
   for (long number = 1; !rest.empty(); ++number) {
