@@ -26,12 +26,14 @@ class Likelihood {
   /// `out_of_band` [modes]. Both references must outlive this.
   Likelihood(const FitData& data, const ModeParameters& parameters, std::vector<bool> out_of_band);
 
-  /// At the parameters x; without the matrix also without the gradient.
+  /// At the parameters x; without the matrix also without the gradient. Where the data's poles are fixed
+  /// their parameters have no gradient, and in the matrix a 1 on the diagonal alone.
   NormalEquations evaluate(const Eigen::Ref<const Eigen::VectorXd>& x, bool with_matrix) const;
 
  private:
   void add_priors(const Eigen::Ref<const Eigen::VectorXd>& x, bool with_matrix,
                   NormalEquations& result) const;
+  void hold_poles(NormalEquations& result) const;
 
   const FitData& data_;
   const ModeParameters& parameters_;

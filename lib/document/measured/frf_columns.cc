@@ -85,7 +85,9 @@ class ColumnReader {
       ++numbers;
     if (numbers < 3) return false;
     if (numbers == row.fields.size()) return true;
-    if (index == 0 && (unit_at_end(row) || parts_at_end(row))) return true;
+    const bool names_parts = std::any_of(row.fields.begin(), row.fields.end(), part_at_end);
+    if (index == 0 && (names_parts ? parts_at_end(row).has_value() : unit_at_end(row).has_value()))
+      return true;
     return std::all_of(row.fields.begin() + static_cast<std::ptrdiff_t>(numbers), row.fields.end(),
                        [](const std::string& field) { return field.empty(); });
   }

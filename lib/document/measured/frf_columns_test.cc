@@ -85,6 +85,7 @@ TEST_CASE("units and quantities") {
             .find("f: line 1: expected a unit at the end of the first line") == 0);
   CHECK(read("1 3 2 mm/N Imag Real\n", {.form = FrfForm::kCutPro}).entries[0].h[0] == Complex(2e-3, 3e-3));
   CHECK(complaint("1 2 3 m/N Imag Imag\n2 3 4\n").find("f: line 1: m/N Imag Imag: expected a unit") == 0);
+  CHECK(complaint("1 2 3 m/N Imag\n2 3 4\n").find("f: line 1: m/N Imag: expected a unit") == 0);
   CHECK(complaint("Hz,Re (V/V),Im (V/V)\n1,1,0\n").find("f: line 1: V/V: expected") == 0);
   CHECK(complaint("f (s),Re,Im\n1,1,0\n").find("f: line 1: \"f (s)\": a time: expected frequencies") == 0);
 }
