@@ -4,7 +4,9 @@
 #include <cmath>
 #include <string_view>
 
+#include "base/error.h"
 #include "cli/exit_status.h"
+#include "document/measured/given_poles.h"
 #include "report.h"
 
 namespace stablecut {
@@ -29,6 +31,22 @@ void FitChoice::declare(CLI::App& app) {
   cli::add_choice_option(app, "--model", model_, "nonsymmetric|symmetric|proportional|best",
                          "What is assumed of a mode's vectors (default: nonsymmetric); best: what Schwarz' "
                          "criterion prefers");
+  cli::add_repeated_option(app, "--exclude", "LO:HI,...",
+                           "Leave the lines in these bands (Hz) out of the fit",
+                           [this](const std::string& text) { take_excluded(text); });
+  app.add_option(
+         "--poles", poles_path_,
+         "Modes at the poles of this modal table, or of columns frequency_hz,damping_ratio; as many, none "
+         "looked for")
+      ->type_name("FILE");
+  cli::add_choice_option(
+      app, "--poles-are", poles_are_, "starts|fixed",
+      "The refinement begins at the poles of --poles (default), or leaves them as they are");
+  app.add_flag("--shared-poles", share_poles_,
+               "Where nothing was measured across (xx and yy alone): one pole for modes whose poles agree");
+  for (const char* name :
+       {"--window-decay", "--modes", "--model", "--exclude", "--poles", "--poles-are", "--shared-poles"})
+    declared_.push_back(app.get_option(name));
 }
 
 void FitChoice::take_window_decay(const std::string& text) {
@@ -44,10 +62,52 @@ void FitChoice::take_modes(const std::string& text) {
   cli::refuse_if(!modes_ || *modes_ < 1, "--modes: " + text + ": expected auto or a number of modes");
 }
 
+void FitChoice::take_excluded(const std::string& text) {
+  for (const std::string_view part : split(text, ',')) {
+    const auto band = parse_band(part);
+    cli::refuse_if(!band, "--exclude: " + std::string(part) + ": expected LO:HI in Hz, LO below HI");
+    excluded_.push_back(*band);
+  }
+}
+
+void FitChoice::check() const {
+  cli::refuse_if(modes_ && !poles_path_.empty(), "--modes: expected without --poles, which says how many");
+  cli::refuse_if(share_poles_ && poles_are_ == "fixed", "--shared-poles: expected without --poles-are fixed");
+  cli::refuse_if(!poles_are_.empty() && poles_path_.empty(), "--poles-are: expected only with --poles");
+}
+
+void FitChoice::take_poles(const document::Input& input) { poles_ = document::given_poles(input); }
+
+dynamics::FrequencyResponse FitChoice::lines_to_fit(const dynamics::FrequencyResponse& measured,
+                                                    const modal::TapReport& tap, bool band_chosen) const {
+  const dynamics::FrequencyResponse usable = modal::usable_part(measured, tap, band_chosen);
+  std::vector<Eigen::Index> left_out;
+  for (Eigen::Index i = 0; i < usable.frequency_hz.size(); ++i) {
+    const double hz = usable.frequency_hz[i];
+    if (std::any_of(excluded_.begin(), excluded_.end(),
+                    [&](const Range& band) { return hz >= band.from && hz <= band.to; }))
+      left_out.push_back(i);
+  }
+  if (!excluded_.empty() && static_cast<Eigen::Index>(left_out.size()) == usable.frequency_hz.size())
+    throw InvalidArgument("no lines left: expected some outside --exclude");
+  return dynamics::without_lines(usable, left_out);
+}
+
+void FitChoice::add_to_report(document::Json& fit) const {
+  if (!excluded_.empty()) {
+    fit["excluded_hz"] = document::Json::array();
+    for (const Range& band : excluded_) fit["excluded_hz"].push_back({band.from, band.to});
+  }
+  if (!poles_.empty()) fit["poles"] = poles_are_ == "fixed" ? "fixed" : "starts";
+}
+
 modal::FitOptions FitChoice::options(Progress progress) const {
   modal::FitOptions options;
   options.modes = modes_;
   options.progress = std::move(progress);
+  options.poles = poles_;
+  options.share_poles = share_poles_;
+  options.poles_fixed = poles_are_ == "fixed";
   const auto name = std::find(kModelNames.begin(), kModelNames.end(), model_);
   if (model_ == "best") options.model = std::nullopt;
   if (name != kModelNames.end()) options.model = static_cast<modal::ModeModel>(name - kModelNames.begin());

@@ -4,9 +4,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cli/tool.h"
 #include "modal/fit.h"
+#include "modal/tap_checks.h"
 
 namespace stablecut {
 
@@ -16,21 +18,40 @@ std::optional<double> parse_decay(std::string_view text);
 
 class FitChoice {
  public:
-  /// Declares --window-decay, --modes and --model; the object must stay where it is until they have been
-  /// parsed.
+  /// Declares --window-decay, --modes, --model, --exclude, --poles, --poles-are and --shared-poles; the
+  /// object must stay where it is until they have been parsed.
   void declare(CLI::App& app);
+  const std::vector<CLI::Option*>& declared() const { return declared_; }
 
   /// Decay of the exponential window that the signals went through, 1/s; 0 without one.
   double window_decay_per_s() const { return window_decay_per_s_; }
+  /// The file of poles; empty: none.
+  const std::string& poles_path() const { return poles_path_; }
+  /// Throws WrongUsage for options that do not fit each other.
+  void check() const;
+  /// Takes that file's poles. Throws DataError.
+  void take_poles(const document::Input& input);
   modal::FitOptions options(Progress progress) const;
+
+  /// The lines that are fitted: those of --exclude, disturbed ones and, without a chosen band, those that
+  /// integration has ruined are left out. Throws InvalidArgument where none is left.
+  dynamics::FrequencyResponse lines_to_fit(const dynamics::FrequencyResponse& measured,
+                                           const modal::TapReport& tap, bool band_chosen) const;
+  /// What of the choice belongs into the field `fit` of the table.
+  void add_to_report(document::Json& fit) const;
 
  private:
   void take_window_decay(const std::string& text);
   void take_modes(const std::string& text);
+  void take_excluded(const std::string& text);
 
   double window_decay_per_s_ = 0;
   std::optional<int> modes_;
-  std::string model_;
+  std::string model_, poles_path_, poles_are_;
+  bool share_poles_ = false;
+  std::vector<Range> excluded_;
+  std::vector<modal::GivenPole> poles_;
+  std::vector<CLI::Option*> declared_;
 };
 
 }  // namespace stablecut

@@ -2,7 +2,6 @@
 
 #include <glog/logging.h>
 
-#include <cmath>
 #include <limits>
 #include <type_traits>
 
@@ -54,8 +53,9 @@ class FitModes : public cli::Tool {
                     "Also write the receptances of the fitted modes on the measured lines, an frf");
     add_file_option(app, "--stabilization", stabilization_path_,
                     "Also write the stabilization diagram: poles by order, and the modes chosen");
-    for (const char* name : {"--window-decay", "--modes", "--model", "--fitted", "--stabilization"})
-      fit_options_.push_back(app.get_option(name));
+    fit_options_ = choice_.declared();
+    for (const char* name : {"--fitted", "--stabilization"}) fit_options_.push_back(app.get_option(name));
+    not_in_provenance(app.get_option("--poles"));  // an input
     cli::begin_group(app, "Frequency responses instead of a fit");
     frf_output_.declare(app);
     cli::begin_group(app, "Modal tables instead of a fit");
@@ -94,12 +94,16 @@ class FitModes : public cli::Tool {
   // ---- a fit ----
 
   void fit() {
+    choice_.check();
     const dynamics::FrequencyResponse measured = read_receptance();
+    if (!choice_.poles_path().empty())
+      choice_.take_poles(read_reference(choice_.poles_path(), cli::InputForm::kByContent));
     const modal::TapReport tap = modal::check_tap(measured, zeros_are_dead_);
     const bool band_chosen = measurement_.band_is_chosen();
     for (const modal::TapFinding& finding : tap.findings)
       warn(input_name_ + ": " + words_of(finding, band_chosen));
-    const dynamics::FrequencyResponse used = modal::usable_part(measured, tap, band_chosen);
+    const dynamics::FrequencyResponse used =
+        named([&] { return choice_.lines_to_fit(measured, tap, band_chosen); });
     const modal::ModalFit result = fitted(used);
     for (const modal::FitFinding& finding : result.findings) {
       const std::string text = input_name_ + ": " + words_of(finding);
@@ -131,6 +135,7 @@ class FitModes : public cli::Tool {
     if (decay > 0) table = named([&] { return dynamics::without_window(std::move(table), decay); });
     document::Json document = document::modal_table_to_json(table);
     document["fit"].update(fit_report(fit, used));
+    choice_.add_to_report(document["fit"]);
     if (decay > 0) document["fit"]["window_decay_per_s"] = decay;
     write_document(main_output(), std::move(document));
   }

@@ -29,6 +29,7 @@ document::Json fit_report(const modal::ModalFit& fit, const dynamics::FrequencyR
       {"relative_error", fit.relative_error},
       {"reduced_chi_square", fit.reduced_chi_square},
       {"curves", std::move(curves)}};
+  if (fit.shared_poles > 0) report["shared_poles"] = fit.shared_poles;
   if (fit.reciprocity)
     report["non_reciprocity"] = {{"index", fit.reciprocity->index}, {"of_noise", fit.reciprocity->noise}};
   return report;

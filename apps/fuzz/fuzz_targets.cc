@@ -1,6 +1,7 @@
 #include "fuzz_targets.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -24,6 +25,7 @@
 #include "document/measured/frf_import.h"
 #include "document/measured/frf_uff.h"
 #include "document/measured/frf_uff_writer.h"
+#include "document/measured/given_poles.h"
 #include "document/measured/load_samples_csv.h"
 #include "document/measured/measured_cuts.h"
 #include "document/measured/measured_forces.h"
@@ -215,6 +217,12 @@ void take_forces(const std::string& bytes) {
 
 void take_force_record(const std::string& bytes) { mean_of_record(source_of(bytes), 6000); }
 
+void take_given_poles(const std::string& bytes) {
+  for (const modal::GivenPole& given : given_poles({source_of(bytes), nullptr}))
+    expect(given.pole.real() < 0 && given.pole.imag() > 0 && std::isfinite(std::abs(given.pole)),
+           "a pole that is not damped");
+}
+
 // One option's text in each line.
 void take_options(const std::string& bytes) {
   for (const std::string_view line : split(bytes, '\n')) {
@@ -274,6 +282,7 @@ const std::vector<FuzzTarget>& fuzz_targets() {
       {"tested-cuts", take_tested_cuts},
       {"forces", take_forces},
       {"force-record", take_force_record},
+      {"given-poles", take_given_poles},
       {"options", take_options},
   };
   return targets;

@@ -109,6 +109,24 @@ with tempfile.TemporaryDirectory() as folder:
     diagram_path = pathlib.Path(folder) / "diagram.json"
     documents["best model"] = run("fit-modes", "--model", "best", "--stabilization", str(diagram_path), stdin=json.dumps(tap))
     documents["stabilization diagram"] = json.loads(diagram_path.read_text())
+    modes_path = pathlib.Path(folder) / "modes.json"
+    modes_path.write_text(json.dumps(documents["best model"]))
+    documents["table at fixed poles"] = run("fit-modes", "--poles", str(modes_path), "--poles-are", "fixed", "--exclude", "1:3,5:6",
+                                            stdin=json.dumps(tap))
+    diagonal = tap | {"h": [entry for entry in tap["h"] if entry["response"] == entry["reference"]]}
+    documents["table of shared poles"] = run("fit-modes", "--shared-poles", stdin=json.dumps(diagonal))
+liu = json.loads((source / "testdata/liu-assembly.json").read_text())
+documents["assembly on a wall"] = liu | {"holder": "fixed"}
+documents["assembly on a wall in x"] = liu | {"holder": {"x": {"end": "fixed"}, "y": liu["holder"]}}
+taps = json.loads((source / "testdata/spindle-taps.json").read_text())
+kept = [i for i, hz in enumerate(taps["frequency_hz"]) if not 280 < hz < 340]
+for series in [taps, *taps["h"]]:
+    for name in {"frequency_hz", "re", "im", "variance"} & series.keys():
+        series[name] = [series[name][i] for i in kept]
+gap = json.loads((source / "testdata/carbide-in-collet.json").read_text())
+gap["holder"]["end"]["receptances"] = taps
+documents["tip on taps with a gap"] = run("rcsa-couple", stdin=json.dumps(gap))
+assert documents["tip on taps with a gap"]["holder"]["x"]["interpolated"]
 with tempfile.TemporaryDirectory() as folder:
     subprocess.run([sys.executable, str(source / "apps/fit-modes/simulate_taps.py"), folder], check=True)
     hits = run("fit-modes", "--taps", f"x={folder}/x.csv", "--tap-window", "5", "--convert")

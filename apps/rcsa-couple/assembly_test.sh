@@ -21,6 +21,40 @@ check_jq "slopes, reciprocal" slopes.json '(.h | length) == 16 and ([.h[] | sele
 jq '.joint = {x: "rigid", y: .joint} | .holder = {x: .holder, y: (.holder | .end = "free")}' "$assembly" | rcsa-couple -o apart.json
 check_jq "x and y apart" apart.json '.h[0].re == $rigid[0].h[0].re and .h[3].re != $rigid[0].h[3].re' --slurpfile rigid rigid.json
 
+# A wall: the clamped beam as a word, as an end, and as the limit of a stub that is nearly none.
+jq '.joint = "rigid" | .holder = "fixed"' "$assembly" | rcsa-couple --no-provenance -o wall.json
+jq '.joint = "rigid" | .holder = {end: "fixed"}' "$assembly" | rcsa-couple --no-provenance -o end.json
+jq '.joint = "rigid" | .holder = {end: "fixed", segments: []}' "$assembly" | rcsa-couple --no-provenance -o none.json
+jq '.joint = "rigid" | .holder.segments[0].length_mm = 1e-9' "$assembly" | rcsa-couple --quiet -o stub.json
+check "a holder that is a wall" cmp -s wall.json end.json
+check "and without segments" cmp -s wall.json none.json
+check_jq "as a stub that is nearly none" stub.json "$size [size, (\$wall[0] | size)] | transpose | all((.[0] / .[1] - 1 | fabs) < 1e-6)" --slurpfile wall wall.json
+check_jq "its static stiffness, l^3 / 3 E I" wall.json '.h[0].re[0] / (pow(0.11892; 3) / (3 * 200e9 * 3.141592653589793 / 64 * pow(0.012; 4))) - 1 | fabs < 1e-3'
+jq '.holder = {x: "fixed", y: .holder}' "$assembly" | rcsa-couple -o one-wall.json
+check_jq "a wall in one direction, springs on it" one-wall.json '.h[0].re != .h[3].re and .h[3].re == $joint[0].h[3].re' --slurpfile joint joint.json
+
+# A segment of 1e-6 mm anywhere in tool and holder changes nothing.
+jq '.tool.segments = [.tool.segments[0] | (.length_mm = 1e-6), (.length_mm = 60), (.length_mm = 1e-6), (.length_mm = 58.919997), (.length_mm = 1e-6)]' "$assembly" |
+  rcsa-couple -o thin-parts.json
+check_jq "segments of 1e-6 mm" thin-parts.json "$size [.h[0].re, .h[0].im, (\$joint[0] | .h[0].re, .h[0].im, size)] | transpose
+  | all((.[0] - .[2] | fabs) <= 1e-9 * .[4] and (.[1] - .[3] | fabs) <= 1e-9 * .[4])" --slurpfile joint joint.json
+
+# Numbers in other units than the expected ones are said, with what was likely meant.
+said() {
+  jq "$1" "$assembly" | rcsa-couple --no-provenance -o doubt.json 2>log
+  check "said: $2" grep -q "^rcsa-couple: warning: <stdin>: $2" log
+  check "in one line" test "$(wc -l <log)" = 1
+}
+said '.materials.steel.youngs_modulus_gpa = 200000' '/materials/steel/youngs_modulus_gpa: 200000: no solid is as stiff: were 200 GPa meant?$'
+said '.materials.steel.youngs_modulus_gpa = 2e11' '/materials/steel/youngs_modulus_gpa: 2e+11: no solid is as stiff: were 200 GPa meant?$'
+said '.materials.steel.youngs_modulus_gpa = 0.2' '/materials/steel/youngs_modulus_gpa: 0.2: with 7800 kg/m3 a wave speed of 160 m/s, .*: were 200 GPa meant?$'
+said '.materials.steel.density_kg_per_m3 = 7.8' '/materials/steel/density_kg_per_m3: 7.8: no solid has this density: were 7800 kg/m3 meant?$'
+said '.materials.steel.density_kg_per_m3 = 7.8e6' '/materials/steel/density_kg_per_m3: 7.8e+06: no solid has this density: were 7800 kg/m3 meant?$'
+said '.materials.steel |= (.youngs_modulus_gpa = 200000 | .density_kg_per_m3 = 7.8e-9)' '/materials/steel/youngs_modulus_gpa: 200000: no solid is as stiff: were 200 GPa and 7800 kg/m3 meant?$'
+said '.tool.segments[0] |= (.length_mm = 0.11892 | .outer_diameter_mm = 0.012)' '/tool/segments: at most 0.012 mm thick, as no tool and no holder is: were 12 mm meant?'
+said '.tool.segments[0].length_mm = 0.11892' '/tool/segments: together 0.11892 mm long, as no tool and no holder is: were 118.92 mm meant?'
+said '.holder.segments[0] |= (.length_mm = 0.0509 | .outer_diameter_mm = 0.012)' '/holder/segments: at most 0.012 mm thick'
+
 # Flutes: 0.8 of the diameter, or what is said.
 jq '.tool.segments[0].flutes = 4' "$assembly" | rcsa-couple --no-provenance -o fluted.json
 jq '.tool.segments[0] |= (.outer_diameter_mm = 12 | .equivalent_diameter_mm = 9.6)' "$assembly" | rcsa-couple --no-provenance -o equivalent.json
@@ -55,6 +89,9 @@ with '.tool.segments[0].inner_diameter_mm = 12' '/tool/segments/0/inner_diameter
 with '.tool.segments[0].length_m = 1' '/tool/segments/0/length_m: unknown field: expected length_mm'
 with '.materials.steel.poisson_ratio = 0.6' '/materials/steel/poisson_ratio: 0.6: expected'
 with '.beam_theory = "rayleigh"' '/beam_theory: "rayleigh": expected "timoshenko" or "euler-bernoulli"'
+with '.holder = "free"' '/holder: "free": expected "fixed"'
+with '.holder = {end: "free"}' '/holder/segments: missing'
+with '.holder = {end: "free", segments: []}' '/holder/segments: a list of 0: expected'
 with '.holder.end = "pinned"' '/holder/end: "pinned": expected "fixed" or "free"'
 with '.holder = {segments: .holder.segments}' '/holder/end: missing'
 with '.sensor_mass_g = -1' '/sensor_mass_g: -1: expected a number not below 0'

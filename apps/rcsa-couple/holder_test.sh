@@ -35,6 +35,17 @@ rcsa-couple difference.json -o difference-out.json 2>log
 check_jq "the finite difference" difference-out.json '.holder.x == .holder.y and .holder.x.slopes == "finite difference" and .holder.x.spacing_mm == 45 and .holder.x.moment_to_slope == "l n / h"'
 check "its limits are said" grep -q 'finite difference over 45 mm, good where the part bends little between' log
 check "one direction serves both, and says so" grep -q 'yy is missing: y is taken as x' log
+# Measured lines with a gap across a resonance (310 Hz): said, with the gap, by the warning and the document; the same lines evenly, not.
+clean='.h |= map(del(.variance))'
+jq "$clean"' | [range(.frequency_hz | length)] as $all | .frequency_hz as $f | ($all | map(select($f[.] <= 280 or $f[.] >= 340))) as $kept
+  | .frequency_hz |= [.[$kept[]]] | .h |= map(.re |= [.[$kept[]]] | .im |= [.[$kept[]]])' spindle-taps.json >gap.json
+jq '.frequency_hz.from = 100 | .holder.end.receptances.file = "gap.json"' carbide-in-collet.json | rcsa-couple -o gap-out.json 2>log
+check "a gap across a resonance is said" grep -q 'x: .*nothing was measured between 280 and 340 Hz: the lines there are interpolated and may be off by' log
+check_jq "and in the document" gap-out.json '.holder.x.interpolated | length >= 1 and (.[0].band_hz == [280, 340] and .[0].error > 0.1)'
+jq '.frequency_hz = {from: 100, to: 3900, count: 7601}' carbide-in-collet.json | rcsa-couple -o even-out.json 2>log
+check "lines at equal distances, interpolated: nothing is said of gaps" sh -c '! grep -q "nothing was measured" log'
+check_jq "nor in the document" even-out.json '.holder.x | has("interpolated") | not'
+
 # A sensor's mass: taps loaded by it on the artefact, and without it.
 jq '{format, frequency_hz: {from: 50, to: 4000, count: 396}, beam_theory, materials, tool: .holder.end.artefact, holder: {modal_table: {file: "spindle-modes.json"}}, joint: "rigid"}' carbide-in-collet.json >artefact.json
 rcsa-couple artefact.json --positions 0,45 -o light.json

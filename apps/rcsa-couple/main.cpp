@@ -131,6 +131,8 @@ class RcsaCouple : public cli::Tool {
           return read_input((folder / path).string(), cli::InputForm::kByContent);
         });
     warn_of(document.remarks);
+    for (const auto& material : document.material_doubts) warn(words_of(material));
+    for (const auto& size : document.size_doubts) warn(words_of(size));
     for (const document::HolderFinding& finding : document.findings) warn(words_of(finding));
     return document;
   }

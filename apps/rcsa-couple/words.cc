@@ -11,10 +11,24 @@
 namespace stablecut {
 namespace {
 
+constexpr std::size_t kNamedGaps = 3;
+
 // `12 of 400 lines (100 to 155 Hz)`.
 std::string list_of_lines(const std::vector<double>& lines_hz, std::size_t all) {
   return std::to_string(lines_hz.size()) + " of " + std::to_string(all) + " lines (" +
          number_text(lines_hz.front()) + " to " + number_text(lines_hz.back()) + " Hz)";
+}
+
+// Intervals between measured lines, the worst error first.
+std::string gaps_text(std::vector<dynamics::DoubtfulInterval> gaps) {
+  std::sort(gaps.begin(), gaps.end(), [](const auto& a, const auto& b) { return a.error > b.error; });
+  std::string text = "nothing was measured between ";
+  for (std::size_t i = 0; i < std::min(kNamedGaps, gaps.size()); ++i)
+    text += (i > 0 ? ", " : "") + number_text(gaps[i].from_hz) + " and " + number_text(gaps[i].to_hz) + " Hz";
+  if (gaps.size() > kNamedGaps)
+    text += " and in " + std::to_string(gaps.size() - kNamedGaps) + " more intervals";
+  return text + ": the lines there are interpolated and may be off by " + percent_text(gaps.front().error) +
+         " of the largest around or more, by a resonance that lies there or by noise that is carried across";
 }
 
 std::string limits_text(const receptance::HolderQuality& quality, std::size_t lines) {
@@ -32,6 +46,7 @@ std::string limits_text(const receptance::HolderQuality& quality, std::size_t li
     add("not passive on " + list_of_lines(quality.unphysical_hz, lines) +
         ": it would give energy to whatever loads it, by more than " +
         percent_text(receptance::kPassiveShare) + " of its receptance");
+  if (!quality.doubtful.empty()) add(gaps_text(quality.doubtful));
   return text;
 }
 
@@ -76,6 +91,47 @@ std::string words_of(const document::HolderFinding& finding) {
              "slopes, a second place or, along an artefact, four pairs of places";
   }
   return "";
+}
+
+std::string words_of(const document::DoubtfulMaterial& material) {
+  using Kind = receptance::MaterialDoubt::Kind;
+  const receptance::MaterialDoubt& doubt = material.doubt;
+  const double modulus = 1e-9 * material.material.youngs_modulus_pa,
+               density = material.material.density_kg_per_m3;
+  const bool of_density =
+      doubt.modulus_factor == 1 && (doubt.density_factor != 1 || doubt.kind == Kind::kDensity);
+  std::string text = material.place + (of_density ? "/density_kg_per_m3: " : "/youngs_modulus_gpa: ") +
+                     number_text(of_density ? density : modulus) + ": ";
+  switch (doubt.kind) {
+    case Kind::kModulus:
+      text += "no solid is as stiff";
+      break;
+    case Kind::kDensity:
+      text += of_density ? "no solid has this density"
+                         : "with a density of " + number_text(density) + " kg/m3 no solid's";
+      break;
+    case Kind::kWaveSpeed:
+      text += "with " + (of_density ? number_text(modulus) + " GPa" : number_text(density) + " kg/m3") +
+              " a wave speed of " + number_text(doubt.wave_speed_m_per_s, 3) +
+              " m/s, and solids (rubber apart) have 450 to 19 000";
+      break;
+  }
+  if (doubt.modulus_factor == 1 && doubt.density_factor == 1) return text;
+  text += ": were";
+  if (doubt.modulus_factor != 1) text += " " + number_text(doubt.modulus_factor * modulus) + " GPa";
+  if (doubt.modulus_factor != 1 && doubt.density_factor != 1) text += " and";
+  if (doubt.density_factor != 1) text += " " + number_text(doubt.density_factor * density) + " kg/m3";
+  return text + " meant?";
+}
+
+std::string words_of(const document::DoubtfulSize& size) {
+  double thickest = 0;
+  for (const auto& segment : size.segments) thickest = std::max(thickest, segment.outer_diameter_m);
+  const bool thin = size.doubt == receptance::SizeDoubt::kDiameter;
+  const double metres = thin ? thickest : receptance::length_of(size.segments);
+  return size.place + ": " + (thin ? "at most " : "together ") + number_text(mm_from_metres(metres)) +
+         " mm " + (thin ? "thick" : "long") + ", as no tool and no holder is: were " +
+         number_text(1e3 * mm_from_metres(metres)) + " mm meant? Sizes are expected in mm, not in m";
 }
 
 std::vector<std::string> warnings_of(const receptance::IdentifiedJoints& joints,

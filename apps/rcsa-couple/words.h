@@ -12,6 +12,10 @@ namespace stablecut {
 /// A warning, beginning with the place of the measurement.
 std::string words_of(const document::HolderFinding& finding);
 
+/// A warning, beginning with the place of the value, which says what was likely meant.
+std::string words_of(const document::DoubtfulMaterial& material);
+std::string words_of(const document::DoubtfulSize& size);
+
 /// What to say of identified joints, for the tap of that name. Throws NoAnswer where a direction is
 /// unexplained and where no direction tells anything.
 std::vector<std::string> warnings_of(const receptance::IdentifiedJoints& joints,

@@ -196,8 +196,8 @@ document::Input Tool::read_input(const std::string& path, InputForm form) {
   return input;
 }
 
-document::Input Tool::read_reference(const std::string& path) {
-  document::Input input = read_input(path, InputForm::kJson);
+document::Input Tool::read_reference(const std::string& path, InputForm form) {
+  document::Input input = read_input(path, form);
   inputs_.back().label.clear();
   return input;
 }

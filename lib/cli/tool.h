@@ -49,7 +49,7 @@ class Tool {
   /// A part of the tool's own result: not an input of the document.
   document::Input read_part(const std::string& path);
   /// What the main input is compared with: its label does not become the result's.
-  document::Input read_reference(const std::string& path);
+  document::Input read_reference(const std::string& path, InputForm form = InputForm::kJson);
 
   /// Adds label and provenance and takes the document as an output; "-" is standard output. The main output
   /// as a table where --as-table or --csv asks for it.

@@ -8,12 +8,12 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "base/units.h"
+#include "dynamics/interpolation.h"
 
 namespace stablecut::dynamics {
 namespace {
 
 constexpr double kSameLine = 1e-9;        // relative distance below which two frequencies are one line
-constexpr Eigen::Index kCubicLines = 4;   // measured lines that an interpolated value follows from
 constexpr double kLeastCoherence = 1e-6;  // a coherence of 0 would make the variance infinite
 constexpr double kLeastModulus = 1e-300;  // of |h|^2, in a quotient
 
@@ -134,22 +134,12 @@ FrequencyResponse on_lines(const FrequencyResponse& frf, const Eigen::VectorXd& 
     const Eigen::Index above = std::min<Eigen::Index>(
         std::lower_bound(from.begin(), from.end(), hz - rounding) - from.begin(), measured - 1);
     const bool same = above == 0 || std::abs(from[above] - hz) <= rounding;
-    // The nodes of the cubic, and the two neighbours.
-    const Eigen::Index count = std::min(kCubicLines, measured);
-    const Eigen::Index first = std::clamp<Eigen::Index>(above - 2, 0, measured - count);
+    const LineWeights weights = same ? LineWeights{{above, 1}} : cubic_weights(from, above, hz);
     for (std::size_t e = 0; e < frf.entries.size(); ++e) {
       const auto& entry = frf.entries[e];
       auto& target = result.entries[e];
-      std::complex<double> value = entry.h[above];
-      if (!same) {
-        value = 0;
-        for (Eigen::Index a = first; a < first + count; ++a) {
-          double weight = 1;
-          for (Eigen::Index b = first; b < first + count; ++b)
-            if (b != a) weight *= (hz - from[b]) / (from[a] - from[b]);
-          value += weight * entry.h[a];
-        }
-      }
+      std::complex<double> value = 0;
+      for (const auto& [line, weight] : weights) value += weight * entry.h[line];
       target.h[i] = value;
       if (entry.variance.size() == 0) continue;
       const double share = same ? 1 : (hz - from[above - 1]) / (from[above] - from[above - 1]);

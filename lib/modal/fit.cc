@@ -12,6 +12,7 @@
 #include "modal/fitted_table.h"
 #include "modal/mismatch_proof.h"
 #include "modal/mode_search.h"
+#include "modal/shared_poles.h"
 #include "modal/table_assembly.h"
 
 namespace stablecut::modal {
@@ -30,6 +31,7 @@ struct Group {
   CurveVariances variance;  // given; empty when any is unknown
   FitData data;
   std::optional<int> wanted_modes;
+  Eigen::VectorXcd poles;  // given
 };
 
 // ---- check ----
@@ -101,6 +103,29 @@ std::optional<int> share_of_modes(const FitOptions& options, std::size_t groups,
   return std::max(1, *options.modes / count + (static_cast<int>(group) < *options.modes % count ? 1 : 0));
 }
 
+// The given poles that move the group's directions, seen through the window.
+Eigen::VectorXcd poles_of(const FitOptions& options, const Group& group, double window_decay_per_s) {
+  std::vector<Complex> poles;
+  for (const GivenPole& given : options.poles) {
+    const bool moves =
+        given.directions.empty() ||
+        std::any_of(given.directions.begin(), given.directions.end(), [&](const auto& name) {
+          return std::find(group.directions.begin(), group.directions.end(), name) != group.directions.end();
+        });
+    if (!moves) continue;
+    if (std::find(poles.begin(), poles.end(), given.pole - window_decay_per_s) != poles.end())
+      throw InvalidArgument("poles: " + number_text(std::abs(given.pole) / kTwoPi) +
+                            " Hz: expected each pole once in a direction");
+    poles.push_back(given.pole - window_decay_per_s);
+  }
+  if (poles.empty())
+    throw InvalidArgument("poles: expected one that moves " + group.directions[0] + " at least");
+  if (2 * static_cast<Eigen::Index>(poles.size()) > group.data.lines())
+    throw InvalidArgument("poles: " + std::to_string(poles.size()) +
+                          ": expected at most half as many as lines, " + std::to_string(group.data.lines()));
+  return Eigen::Map<Eigen::VectorXcd>(poles.data(), static_cast<Eigen::Index>(poles.size()));
+}
+
 std::vector<Group> groups_of(const dynamics::FrequencyResponse& measured, const FitOptions& options) {
   const std::vector<DirectionGroup> parts = independent_groups(measured);
   if (parts.empty()) throw NoAnswer("all entries are zero: there is no mode to find");
@@ -111,6 +136,11 @@ std::vector<Group> groups_of(const dynamics::FrequencyResponse& measured, const 
     group.variance = known_variances(measured, parts[g]);
     group.data = group_data(measured, parts[g], group.directions);
     group.wanted_modes = share_of_modes(options, parts.size(), g);
+    if (!options.poles.empty()) {
+      group.poles = poles_of(options, group, measured.window_decay_per_s);
+      group.wanted_modes = static_cast<int>(group.poles.size());
+      group.data.poles_fixed = options.poles_fixed;
+    }
     groups.push_back(std::move(group));
   }
   return groups;
@@ -118,18 +148,25 @@ std::vector<Group> groups_of(const dynamics::FrequencyResponse& measured, const 
 
 // The same curves between the same directions of a group, known as well.
 bool alike(const Group& a, const Group& b) {
-  return a.wanted_modes == b.wanted_modes && a.variance == b.variance &&
+  return a.wanted_modes == b.wanted_modes && a.poles.size() == b.poles.size() && a.poles == b.poles &&
+         a.variance == b.variance &&
          std::equal(a.data.curves.begin(), a.data.curves.end(), b.data.curves.begin(), b.data.curves.end(),
                     [](const Curve& p, const Curve& q) {
                       return p.response == q.response && p.reference == q.reference && p.h == q.h;
                     });
 }
 
+SelectionOptions selection_of(const Group& group, const Progress& progress) {
+  SelectionOptions options{group.wanted_modes, progress};
+  options.poles = group.poles;
+  return options;
+}
+
 ChosenFits search(const std::vector<Group>& groups, const FitOptions& options) {
   std::vector<GroupFit> found;
   std::vector<SelectionOptions> selections;
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    selections.push_back({groups[g].wanted_modes, options.progress});
+    selections.push_back(selection_of(groups[g], options.progress));
     // A round tool in a round spindle: the same numbers in y as in x need no second fit.
     const auto same = std::find_if(groups.begin(), groups.begin() + static_cast<std::ptrdiff_t>(g),
                                    [&](const Group& other) { return alike(other, groups[g]); });
@@ -174,7 +211,7 @@ void add_curve_fits(const std::vector<Group>& groups, const std::vector<GroupFit
 }
 
 ModalFit assemble(const dynamics::FrequencyResponse& measured, const std::vector<Group>& groups,
-                  const ChosenFits& chosen) {
+                  const FitOptions& options, const ChosenFits& chosen) {
   ModalFit fit;
   fit.model.dofs = direction_names(measured);
   fit.criteria = chosen.criteria;
@@ -193,6 +230,7 @@ ModalFit assemble(const dynamics::FrequencyResponse& measured, const std::vector
     fit.data.push_back(part.data);
   }
   for (dynamics::Mode& mode : fit.model.modes) mode.out_of_band = !fit.data[0].in_band(mode.pole());
+  if (options.share_poles) fit.shared_poles = share_poles(fit.model);
   fit.model = sorted_by_frequency(fit.model);
   add_curve_fits(groups, chosen.fits, fit);
   fit.reduced_chi_square = reduced_chi_square_of(chosen.fits);
@@ -228,7 +266,7 @@ void judge_entries(const dynamics::FrequencyResponse& measured, const std::vecto
       driving.push_back(entry->is_driving_point());
     }
     for (const EntryMismatch& mismatch :
-         proved_mismatches(fits[g], groups[g].variance, driving, {groups[g].wanted_modes, {}})) {
+         proved_mismatches(fits[g], groups[g].variance, driving, selection_of(groups[g], {}))) {
       FitFinding finding{.kind = mismatch.all           ? FitFindingKind::kAllDelayed
                                  : mismatch.factor != 1 ? FitFindingKind::kScaled
                                                         : FitFindingKind::kDelayed,
@@ -248,7 +286,7 @@ void judge_explained(const std::vector<Group>& groups, const std::vector<GroupFi
   if (std::all_of(fit.model.modes.begin(), fit.model.modes.end(),
                   [](const dynamics::Mode& mode) { return mode.out_of_band; }))
     fit.findings.push_back({.kind = FitFindingKind::kNoMode});
-  if (options.modes) return;
+  if (options.modes || !options.poles.empty()) return;
   if (fit.limited_by_model && fit.relative_error > kNoFit) {
     fit.findings.push_back(
         {.kind = FitFindingKind::kUnexplained, .error = fit.relative_error, .restricted = restricted});
@@ -307,7 +345,7 @@ ModalFit fit_modes(const dynamics::FrequencyResponse& measured, const FitOptions
   check(measured);
   const std::vector<Group> groups = groups_of(measured, options);
   const ChosenFits chosen = search(groups, options);
-  ModalFit fit = assemble(measured, groups, chosen);
+  ModalFit fit = assemble(measured, groups, options, chosen);
   judge(measured, groups, chosen.fits, options, fit);
   return fit;
 }

@@ -2,6 +2,7 @@
 // table".
 #pragma once
 
+#include <complex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,11 +16,21 @@
 
 namespace stablecut::modal {
 
+/// A pole that is known.
+struct GivenPole {
+  std::complex<double> pole;            ///< rad/s, with a positive imaginary part; without a window's decay
+  std::vector<std::string> directions;  ///< those that it moves; empty: all
+};
+
 struct FitOptions {
   std::optional<int> modes;  ///< how many, instead of finding out; shared evenly among independent groups
   /// Empty: the one of the three with the least information criterion.
   std::optional<ModeModel> model = ModeModel::kNonsymmetric;
   Progress progress;
+  /// Modes at these poles, and no others; empty: found in the curves. With `modes` empty.
+  std::vector<GivenPole> poles{};
+  bool share_poles = false;  ///< of independent groups, where they agree; not with poles_fixed
+  bool poles_fixed = false;  ///< keep them as they are; else they are where the refinement starts
 };
 
 /// How far the measurement is from reciprocal: sums over all pairs of directions measured both ways.
@@ -86,6 +97,7 @@ struct ModalFit {
   /// The residual is larger than the noise: selection stopped at the model error, not at the noise.
   bool limited_by_model = false;
   bool converged = false;       ///< the last refinement of every group
+  int shared_poles = 0;         ///< modes that have got the pole of one of another group
   bool by_reciprocity = false;  ///< some vector components are shown by no entry
   std::vector<FitFinding> findings;
 };
@@ -94,7 +106,8 @@ struct ModalFit {
 /// (no force in that direction, or no response) is set by reciprocity; directions that only missing entries
 /// could connect are taken as uncoupled; both are findings.
 ///
-/// Throws InvalidArgument for data that cannot be fitted, NoAnswer when all entries are zero. What was found
+/// Throws InvalidArgument for data that cannot be fitted, and for poles of which none moves some curve, two
+/// are the same, or that are more than half of the lines; NoAnswer when all entries are zero. What was found
 /// may be no answer even so: see is_no_answer.
 ModalFit fit_modes(const dynamics::FrequencyResponse& measured, const FitOptions& options = {});
 

@@ -27,6 +27,7 @@ struct FitData {
   Eigen::Index dofs = 0;  ///< number of directions: the size of psi_r and psi_l
   std::vector<Curve> curves;
   bool independent_lines = true;  ///< noise is; through an exponential window it is not
+  bool poles_fixed = false;       ///< known: only vectors are refined, and deviations are given the poles
 
   /// Which curves share components of psi_r or psi_l, directly or by others: a number from 0 on for each
   /// curve. Between two parts the scale of a mode's vectors is free.

@@ -128,7 +128,10 @@ FittedTable fitted_table(const FitData& data, const std::vector<dynamics::Mode>&
   // The weights are 1 / E|error|^2 of the complex value, so each part has half of that variance.
   const Likelihood likelihood(data, parameters, out_of_band(data, modes));
   const NormalEquations normal = likelihood.evaluate(x, true);
-  table.covariance = slope * (inverse_normal_matrix(normal) / 2) * slope.transpose();
+  Eigen::MatrixXd inverse = inverse_normal_matrix(normal);
+  for (Eigen::Index k = 0; k < parameters.modes() && data.poles_fixed; ++k)
+    inverse.diagonal().segment<2>(parameters.pole_at(k)).setZero();
+  table.covariance = slope * (inverse / 2) * slope.transpose();
   std::vector<Eigen::VectorXd> shifts = scale_shifts(data, parameters, fitted);
   if (model == ModeModel::kNonsymmetric && data.independent_lines) {
     for (Eigen::VectorXd& error : shape_errors(data, parameters, x, normal))

@@ -20,7 +20,8 @@ struct FittedTable {
 
 /// The covariance is the inverse of the Fisher information of the weighted curves, the Cramer-Rao bound
 /// [Cramer1946] [Rao1945], carried to the table's parameters to first order. For modes outside the band it
-/// includes their prior.
+/// includes their prior. Where the data's poles are fixed their variances are zero, and the others those
+/// given the poles.
 FittedTable fitted_table(const FitData& data, const std::vector<dynamics::Mode>& modes, ModeModel model);
 
 }  // namespace stablecut::modal

@@ -205,7 +205,20 @@ NormalEquations Likelihood::evaluate(const Eigen::Ref<const Eigen::VectorXd>& x,
   add_size_priors(modes, sums, with_matrix);
   NormalEquations result = with_matrix ? to_parameters(parameters_, x, sums) : std::move(sums);
   add_priors(x, with_matrix, result);
+  if (data_.poles_fixed && with_matrix) hold_poles(result);
   return result;
+}
+
+// No slope along the poles' parameters, and none of the others' information.
+void Likelihood::hold_poles(NormalEquations& result) const {
+  for (Eigen::Index k = 0; k < parameters_.modes(); ++k) {
+    for (const Eigen::Index at : {parameters_.pole_at(k), parameters_.pole_at(k) + 1}) {
+      result.gradient[at] = 0;
+      result.matrix.row(at).setZero();
+      result.matrix.col(at).setZero();
+      result.matrix(at, at) = 1;
+    }
+  }
 }
 
 // The curves may not tell damping and distance of a mode outside the band: then a usual damping and a place

@@ -26,7 +26,8 @@ class Likelihood {
   /// `out_of_band` [modes]. Both references must outlive this.
   Likelihood(const FitData& data, const ModeParameters& parameters, std::vector<bool> out_of_band);
 
-  /// At the parameters x; without the matrix also without the gradient.
+  /// At the parameters x; without the matrix also without the gradient. Where the data's poles are fixed
+  /// their parameters have no gradient, and in the matrix a 1 on the diagonal alone.
   NormalEquations evaluate(const Eigen::Ref<const Eigen::VectorXd>& x, bool with_matrix) const;
 
  private:
@@ -35,6 +36,7 @@ class Likelihood {
   // At the band's nearer end a mode outside it makes a small multiple of what is measured there.
   void add_size_priors(const std::vector<dynamics::Mode>& modes, NormalEquations& coordinates,
                        bool with_matrix) const;
+  void hold_poles(NormalEquations& result) const;
 
   const FitData& data_;
   const ModeParameters& parameters_;

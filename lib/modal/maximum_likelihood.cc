@@ -97,7 +97,7 @@ RefinedModes refine_modes(const FitData& data, const std::vector<dynamics::Mode>
   ceres::Problem problem;
   problem.AddResidualBlock(new CompressedCost(likelihood, parameters.size()), nullptr, x.data());
   const double highest = data.s.cwiseAbs().maxCoeff();
-  for (Eigen::Index k = 0; k < parameters.modes(); ++k) {
+  for (Eigen::Index k = 0; k < parameters.modes() && !data.poles_fixed; ++k) {
     const auto bound = [&](Eigen::Index at, double least, double most) {
       x[at] = std::clamp(x[at], std::log(least), std::log(most));
       problem.SetParameterLowerBound(x.data(), static_cast<int>(at), std::log(least));

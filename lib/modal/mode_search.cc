@@ -127,7 +127,7 @@ GroupFit without_noise(const GroupFit& coarse, const SelectionOptions& options) 
 // No sum of modes reaches the noise: curves weigh by their size, and modes are found from the strongest on.
 GroupFit from_strongest(GroupFit fit, const SelectionOptions& options) {
   fit.weigh(Regime::kModelError);
-  fit.refined = fit.refine({}, kLast);
+  fit.refined = fit.refine(options.poles.size() > 0 ? fit.modes() : std::vector<dynamics::Mode>{}, kLast);
   select_modes(fit, options);
   // It may have been the way to the noise that failed, not the model.
   GroupFit noisy = fit;
@@ -151,9 +151,10 @@ GroupFit settled(GroupFit fit, const SelectionOptions& options) {
   return from_strongest(std::move(fit), options);
 }
 
-// The last refinement may still make a mode too narrow to be one.
-void refine_to_the_end(GroupFit& fit) {
+// The last refinement may still make a mode too narrow to be one, but for modes at given poles.
+void refine_to_the_end(GroupFit& fit, const SelectionOptions& options) {
   fit.refined = fit.refine(fit.modes(), kLast);
+  if (options.poles.size() > 0) return;
   const auto is_narrow = [&](const dynamics::Mode& mode) { return is_too_narrow(fit.data, mode); };
   while (std::any_of(fit.modes().begin(), fit.modes().end(), is_narrow)) {
     std::vector<dynamics::Mode> wider = fit.modes();
@@ -166,8 +167,13 @@ void refine_to_the_end(GroupFit& fit) {
 
 GroupFit search_modes(FitData data, CurveVariances variance, const SelectionOptions& options) {
   GroupFit fit = weighted(std::move(data), std::move(variance));
-  fit.start_poles = find_poles(fit);
-  fit.refined = start_modes(fit, fit.start_poles);
+  if (options.poles.size() > 0) {
+    fit.start_poles = options.poles;
+    fit.refined = fit.refine(modes_at(fit.data, fit.start_poles), kLast);
+  } else {
+    fit.start_poles = find_poles(fit);
+    fit.refined = start_modes(fit, fit.start_poles);
+  }
   if (fit.noise_estimated) estimate_noise(fit);
   rescue(fit, options);
   if (fit.exceeds_noise() && !fit.noise_estimated) {
@@ -178,16 +184,16 @@ GroupFit search_modes(FitData data, CurveVariances variance, const SelectionOpti
   }
   if (!fit.exceeds_noise()) select_modes(fit, options);
   fit = settled(std::move(fit), options);
-  refine_to_the_end(fit);
+  refine_to_the_end(fit, options);
   return fit;
 }
 
 GroupFit in_model(GroupFit fit, ModeModel model, const SelectionOptions& options) {
   fit.model = model;
-  refine_to_the_end(fit);
+  refine_to_the_end(fit, options);
   if (!fit.exceeds_noise()) {
     select_modes(fit, options);
-    refine_to_the_end(fit);
+    refine_to_the_end(fit, options);
   }
   // The weights stay: all models are judged by the same.
   if (fit.exceeds_noise()) fit.regime = Regime::kModelError;

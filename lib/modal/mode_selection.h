@@ -15,6 +15,8 @@ struct SelectionOptions {
   std::optional<int> wanted_modes;  ///< keep that many, whatever they are worth
   Progress progress;
   int rounds = kSelectionRounds;
+  /// Given poles, rad/s; then wanted_modes is their number, and none is looked for. Empty: none are given.
+  Eigen::VectorXcd poles{};
 };
 
 /// How much chi-square a mode must take away to be worth its parameters, judged by what the residual `with`

@@ -56,15 +56,6 @@ Eigen::VectorXcd relocated_poles(const GroupFit& fit, Eigen::Index pairs) {
   return poles;
 }
 
-// Modes at the poles, each with the nearest residue of rank one.
-std::vector<dynamics::Mode> modes_at(const FitData& data, const Eigen::VectorXcd& poles) {
-  const LinearResidues linear = linear_residues(data, poles);
-  std::vector<dynamics::Mode> modes;
-  for (Eigen::Index k = 0; k < poles.size(); ++k)
-    modes.push_back(rank_one_mode(data, poles[k], linear.residue.row(k)));
-  return modes;
-}
-
 // A suspended structure moves as a rigid body, 1 / (m omega^2), whose poles lie far below the lines. Exact
 // data of it draw several poles to the first lines, from where none finds its way down. One mode for each
 // direction below the lines replaces these, and the heavily damped ones that help them, when it explains the
@@ -93,6 +84,14 @@ RefinedModes with_rigid_body(const GroupFit& fit, RefinedModes start) {
 }
 
 }  // namespace
+
+std::vector<dynamics::Mode> modes_at(const FitData& data, const Eigen::VectorXcd& poles) {
+  const LinearResidues linear = linear_residues(data, poles);
+  std::vector<dynamics::Mode> modes;
+  for (Eigen::Index k = 0; k < poles.size(); ++k)
+    modes.push_back(rank_one_mode(data, poles[k], linear.residue.row(k)));
+  return modes;
+}
 
 // From more pairs where nearly all of them matter.
 Eigen::VectorXcd find_poles(const GroupFit& fit) {

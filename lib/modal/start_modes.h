@@ -8,6 +8,9 @@ namespace stablecut::modal {
 /// Poles of the weighted curves by vector fitting, those that matter (rad/s).
 Eigen::VectorXcd find_poles(const GroupFit& fit);
 
+/// Modes at the poles, each with the nearest residue of rank one.
+std::vector<dynamics::Mode> modes_at(const FitData& data, const Eigen::VectorXcd& poles);
+
 /// Modes at such poles with the nearest residues of rank one, refined; the rigid body of a suspended
 /// structure as one mode for each direction.
 RefinedModes start_modes(const GroupFit& fit, const Eigen::VectorXcd& poles);

@@ -33,8 +33,7 @@ Receptance<2> Assembly::holder(int direction, Eigen::Index line) const {
   const double omega = rad_per_s_from_hz(frequency_hz[line]);
   if (by.end == HolderEnd::kFree) {
     if (by.segments.empty()) throw InvalidArgument("holder: a free end needs a segment");
-    const BeamChain outer(by.segments.begin(), by.segments.end() - 1);
-    return held_chain<2>(outer, theory, omega, SegmentMotion(by.segments.back(), theory, omega).free().r11);
+    return free_chain(by.segments, theory, omega).r11;
   }
   Receptance<2> inner = Receptance<2>::Zero();
   if (by.end == HolderEnd::kGiven) {

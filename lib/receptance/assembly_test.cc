@@ -1,6 +1,8 @@
 #include "receptance/assembly.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
 
 #include "base/error.h"
 #include "receptance/assembly_identification.h"
@@ -48,6 +50,38 @@ TEST_CASE("a holder whose inner end is free: the free beam's receptance at its f
   CHECK(relative(assembly.holder(0, 7), SegmentMotion(bar(50.90), assembly.theory, omega).free().r11) < 1e-9);
   assembly.held[0].segments.clear();
   CHECK_THROWS_AS(assembly.holder(0, 7), InvalidArgument);
+}
+
+TEST_CASE("a tool on a wall: clamped by a rigid joint, on springs by another") {
+  Assembly assembly = two_joints();
+  for (HeldBy& held : assembly.held) held.segments.clear();
+  assembly.set_joints({std::nullopt, ToolJoint{5e7, 200, 5e4, 0.5}});
+  const BeamSegment tool = bar(118.92);
+  const double pi = std::numbers::pi, d = tool.outer_diameter_m, length = tool.length_m;
+  for (Eigen::Index line = 10; line < assembly.frequency_hz.size(); line += 17) {
+    const double omega = rad_per_s_from_hz(assembly.frequency_hz[line]);
+    // The clamped beam's closed form [Bishop1960].
+    const std::complex<double> ei =
+        tool.youngs_modulus_pa * std::complex<double>(1, tool.loss_factor) * (pi / 64 * std::pow(d, 4));
+    const std::complex<double> lambda =
+        std::pow(tool.density_kg_per_m3 * (pi / 4) * d * d * omega * omega / ei, 0.25);
+    const std::complex<double> x = lambda * length;
+    const std::complex<double> clamped = (std::sin(x) * std::cosh(x) - std::cos(x) * std::sinh(x)) /
+                                         (lambda * lambda * lambda * ei * (1.0 + std::cos(x) * std::cosh(x)));
+    const Receptance<4> tip = assembly.tip(line);
+    CHECK(std::abs(tip(0, 0) - clamped) < 1e-9 * std::abs(clamped));
+    CHECK(assembly.along_tool(line, length, length).topLeftCorner<2, 2>().isZero(0));
+    // On springs: the free beam, coupled to them.
+    const Receptance<2> springs = assembly.held[1].joint->stiffness(omega).cwiseInverse().asDiagonal();
+    const Receptance<2> sprung = coupled_tip<2>(SegmentMotion(tool, assembly.theory, omega).free(), springs);
+    CHECK(relative(tip.bottomRightCorner<2, 2>(), sprung) < 1e-9);
+  }
+  // At rest the springs and the beam add up: 1 / k1 + l^2 / k2 + l^3 / (3 E I).
+  assembly.frequency_hz = Eigen::VectorXd::Constant(1, 1e-3);
+  const double ei = tool.youngs_modulus_pa * pi / 64 * std::pow(d, 4);
+  CHECK(assembly.tip(0)(2, 2).real() ==
+        Approx(1 / 5e7 + length * length / 5e4 + std::pow(length, 3) / (3 * ei) / (1 + 0.02 * 0.02))
+            .epsilon(1e-7));
 }
 
 TEST_CASE("responses of an assembly: entries in order, values of the tip and along the tool") {

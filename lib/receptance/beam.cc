@@ -209,6 +209,15 @@ Receptance<N> SegmentMotion::held(const Receptance<N>& holder) const {
   return movement * load.inverse();
 }
 
+BeamReceptances SegmentMotion::before(const BeamReceptances& inner) const {
+  if (!short_) return rigidly_coupled(free_, inner);
+  // The load on the inner part's end 1 per load at the new end 1, nothing pushing at end 2.
+  const Receptance<2> passed_on = (transfer_.load_of_movement * inner.r11 + transfer_.load_of_load).inverse();
+  const Receptance<2> r21 = inner.r21 * passed_on;
+  return {(transfer_.movement_of_movement * inner.r11 + transfer_.movement_of_load) * passed_on,
+          r21.transpose(), r21, inner.r22 - r21 * transfer_.load_of_movement * inner.r12};
+}
+
 template Receptance<2> SegmentMotion::held<2>(const Receptance<2>&) const;
 template Receptance<4> SegmentMotion::held<4>(const Receptance<4>&) const;
 

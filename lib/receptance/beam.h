@@ -72,6 +72,10 @@ class SegmentMotion {
   template <int N>
   Receptance<N> held(const Receptance<N>& holder) const;
 
+  /// The one free part that the segment and `inner` make when the segment's end 2 is joined rigidly to end 1
+  /// of `inner`; by its transfer matrix too where it is short, however short.
+  BeamReceptances before(const BeamReceptances& inner) const;
+
  private:
   // Transfer matrix in four blocks: movement (deflection, slope) and load (force, moment) at end 1 from
   // movement and load at end 2.

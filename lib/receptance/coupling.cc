@@ -10,4 +10,11 @@ BeamReceptances rigidly_coupled(const BeamReceptances& outer, const BeamReceptan
           inner.r22 - inner.r21 * from_inner};
 }
 
+BeamReceptances turned_round(const BeamReceptances& part) {
+  const auto mirrored = [](const Receptance<2>& h) {
+    return Receptance<2>{{h(0, 0), -h(0, 1)}, {-h(1, 0), h(1, 1)}};
+  };
+  return {mirrored(part.r22), mirrored(part.r21), mirrored(part.r12), mirrored(part.r11)};
+}
+
 }  // namespace stablecut::receptance

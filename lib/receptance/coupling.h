@@ -33,6 +33,10 @@ Receptance<N> coupled_tip(const BeamReceptances& tool, const Receptance<N>& hold
 /// The one free part that two make when the outer one's end 2 is joined rigidly to the inner one's end 1.
 BeamReceptances rigidly_coupled(const BeamReceptances& outer, const BeamReceptances& inner);
 
+/// The same part seen from its other end: ends 1 and 2 change places, and with s every slope and moment its
+/// sign.
+BeamReceptances turned_round(const BeamReceptances& part);
+
 /// The inverse of coupled_tip: the receptance H of what holds a free part, from the receptance G11 that was
 /// measured at its end 1, H = R21 (R11 - G11)^-1 R12 - R22.
 template <int N>

@@ -70,6 +70,31 @@ Receptance<N> between_places(const BeamChain& chain, BeamTheory theory, double o
   return at_farther * farther_free.inverse() * in_all_directions<N>(nearer_free.transpose());
 }
 
+std::vector<SegmentMotion> motions_of(const BeamChain& chain, BeamTheory theory, double omega) {
+  std::vector<SegmentMotion> motions;
+  motions.reserve(chain.size());
+  for (const BeamSegment& segment : chain) motions.emplace_back(segment, theory, omega);
+  return motions;
+}
+
+// The index of the longest segment.
+std::size_t longest_of(const BeamChain& chain) {
+  if (chain.empty()) throw InvalidArgument("no segment: expected at least one");
+  return std::max_element(chain.begin(), chain.end(),
+                          [](const auto& a, const auto& b) { return a.length_m < b.length_m; }) -
+         chain.begin();
+}
+
+// The chain free at both ends, built from its longest segment inwards, then outwards: beside it the
+// receptance of a free short segment, nearly without mass, would be so large that nothing else were left.
+BeamReceptances free_part(const std::vector<SegmentMotion>& motions, std::size_t longest) {
+  BeamReceptances part = turned_round(motions[longest].free());
+  for (std::size_t i = longest + 1; i < motions.size(); ++i) part = motions[i].before(part);
+  part = turned_round(part);
+  for (std::size_t i = longest; i-- > 0;) part = motions[i].before(part);
+  return part;
+}
+
 template <int N>
 Receptance<N> mass_matrix(double mass_kg, double omega) {
   const Eigen::Matrix2cd one{{mass_kg * omega * omega, 0}, {0, 0}};
@@ -93,28 +118,17 @@ Receptance<N> held_chain(const BeamChain& chain, BeamTheory theory, double omega
 }
 
 BeamReceptances free_chain(const BeamChain& chain, BeamTheory theory, double omega) {
-  if (chain.empty()) throw InvalidArgument("no segment: expected at least one");
-  BeamReceptances whole = SegmentMotion(chain.front(), theory, omega).free();
-  for (std::size_t i = 1; i < chain.size(); ++i) {
-    whole = rigidly_coupled(whole, SegmentMotion(chain[i], theory, omega).free());
-  }
-  return whole;
+  return free_part(motions_of(chain, theory, omega), longest_of(chain));
 }
 
 template <int N>
 JointPlane<N> joint_plane(const BeamChain& tool, BeamTheory theory, double omega,
                           const Receptance<N>& holder) {
-  if (tool.empty()) throw InvalidArgument("no segment: expected at least one");
-  // The tool held by the holder, and the free tool, both built from the joint outwards.
-  const SegmentMotion last(tool.back(), theory, omega);
-  BeamReceptances free = last.free();
+  const std::vector<SegmentMotion> motions = motions_of(tool, theory, omega);
+  const BeamReceptances free = free_part(motions, longest_of(tool));
   JointPlane<N> plane;
-  plane.rigid_tip = last.held<N>(holder);
-  for (std::size_t i = tool.size() - 1; i-- > 0;) {
-    const SegmentMotion segment(tool[i], theory, omega);
-    free = rigidly_coupled(segment.free(), free);
-    plane.rigid_tip = segment.held<N>(plane.rigid_tip);
-  }
+  plane.rigid_tip = holder;
+  for (std::size_t i = motions.size(); i-- > 0;) plane.rigid_tip = motions[i].held<N>(plane.rigid_tip);
   plane.stiffness = (in_all_directions<N>(free.r22) + holder).inverse();
   plane.of_opening = in_all_directions<N>(free.r12) * plane.stiffness;
   plane.transmitted = plane.stiffness * in_all_directions<N>(free.r21);

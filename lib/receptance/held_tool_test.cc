@@ -65,6 +65,39 @@ TEST_CASE("free parts joined are the one free part") {
   }
 }
 
+TEST_CASE(
+    "a segment of 1e-6 mm is a piece of the bar like any other: held, free, through a joint, along the "
+    "tool") {
+  const double thin = 1e-6;  // mm
+  const ToolJoint joint{5e7, 200, 5e4, 0.5};
+  const BeamChain whole = {bar(118.92)};
+  const BeamChain cut[] = {{bar(60), bar(thin), bar(58.92 - thin)},
+                           {bar(thin), bar(118.92 - thin)},
+                           {bar(118.92 - thin), bar(thin)},
+                           {bar(thin), bar(thin), bar(118.92 - 4 * thin), bar(thin), bar(thin)}};
+  for (const BeamTheory theory : kBoth) {
+    for (double f = 1; f <= 20000; f *= 1.3) {
+      const double omega = rad_per_s_from_hz(f);
+      const Receptance<2> held = held_chain<2>(whole, theory, omega, some_holder());
+      const BeamReceptances free = free_chain(whole, theory, omega);
+      const Receptance<2> tip =
+          joint_plane<2>(whole, theory, omega, some_holder()).tip(joint.stiffness(omega));
+      const Receptance<2> along = receptance_along<2>(whole, theory, omega, some_holder(), 0, 0.05);
+      for (const BeamChain& chain : cut) {
+        CHECK(relative(held_chain<2>(chain, theory, omega, some_holder()), held) < 1e-9);
+        const BeamReceptances parts = free_chain(chain, theory, omega);
+        CHECK(relative(parts.r11, free.r11) < 1e-9);
+        CHECK(relative(parts.r12, free.r12) < 1e-9);
+        CHECK(relative(parts.r21, free.r21) < 1e-9);
+        CHECK(relative(parts.r22, free.r22) < 1e-9);
+        CHECK(relative(joint_plane<2>(chain, theory, omega, some_holder()).tip(joint.stiffness(omega)), tip) <
+              1e-9);
+        CHECK(relative(receptance_along<2>(chain, theory, omega, some_holder(), 0, 0.05), along) < 1e-8);
+      }
+    }
+  }
+}
+
 TEST_CASE("through a joint: as the joint sees it, or by coupling, the same tip") {
   const ToolJoint joint{5e7, 200, 5e4, 0.5};
   for (const BeamTheory theory : kBoth) {

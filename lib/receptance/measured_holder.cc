@@ -44,6 +44,25 @@ bool any_cross_entry(const std::vector<Receptance<4>>& lines) {
   });
 }
 
+// The intervals in which some tap within direction d is doubtful; those that meet or overlap become one.
+std::vector<dynamics::DoubtfulInterval> all_doubtful(const Taps& taps, int d) {
+  std::vector<dynamics::DoubtfulInterval> all, merged;
+  for (const Tap& tap : taps) {
+    if (tap.response / 2 == d && tap.reference / 2 == d)
+      all.insert(all.end(), tap.doubtful.begin(), tap.doubtful.end());
+  }
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.from_hz < b.from_hz; });
+  for (const auto& interval : all) {
+    if (merged.empty() || merged.back().to_hz < interval.from_hz) {
+      merged.push_back(interval);
+    } else {
+      merged.back().to_hz = std::max(merged.back().to_hz, interval.to_hz);
+      merged.back().error = std::max(merged.back().error, interval.error);
+    }
+  }
+  return merged;
+}
+
 // Throws InvalidArgument for a place beyond the artefact's end.
 void check_places(const Taps& taps, const BeamChain& artefact) {
   const double length = length_of(artefact);
@@ -69,7 +88,10 @@ class HolderBuilder {
     complete_by_reciprocity(taps_);
     check_places(taps_, measurement.artefact);
     holder_.receptance.assign(lines_, Receptance<4>::Zero());
-    for (int d = 0; d < 2; ++d) quality(d).measured = !taps(d, d).empty();
+    for (int d = 0; d < 2; ++d) {
+      quality(d).measured = !taps(d, d).empty();
+      quality(d).doubtful = all_doubtful(taps_, d);
+    }
     if (!quality(0).measured && !quality(1).measured)
       throw InvalidArgument("no entry xx and none yy: expected one");
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dynamics/frequency_response.h"
+#include "dynamics/interpolation.h"
 #include "dynamics/modal_model.h"
 #include "receptance/held_tool.h"
 
@@ -39,9 +40,15 @@ struct HolderQuality {
   std::vector<double> noisy_hz;       ///< lines on which |l| is below kNoisyDeviations of its noise
   std::vector<double> unphysical_hz;  ///< lines on which a load would draw more than kPassiveShare
 
-  /// Whether there is something to say: a difference was taken, or lines are noisy or unphysical.
+  /// Where measured lines are so far apart that the receptance between them may be far off: of all taps
+  /// of this direction the largest errors, increasing.
+  std::vector<dynamics::DoubtfulInterval> doubtful;
+
+  /// Whether there is something to say: a difference was taken, or lines are noisy, unphysical or too far
+  /// apart.
   bool limited() const {
-    return slopes == SlopeSource::kFiniteDifference || !noisy_hz.empty() || !unphysical_hz.empty();
+    return slopes == SlopeSource::kFiniteDifference || !noisy_hz.empty() || !unphysical_hz.empty() ||
+           !doubtful.empty();
   }
 };
 

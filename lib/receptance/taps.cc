@@ -41,9 +41,10 @@ Taps taps_of(const dynamics::FrequencyResponse& measured, const Eigen::VectorXd&
       entry.variance = dynamics::estimated_variance(frf.frequency_hz, entry.h, entry.h.cwiseAbs(),
                                                     dynamics::floor_shapes(frf.frequency_hz));
   }
-  frf = dynamics::on_lines(frf, frequency_hz);
+  const dynamics::FrequencyResponse wanted = dynamics::on_lines(frf, frequency_hz);
   Taps taps;
-  for (const auto& entry : frf.entries) {
+  for (std::size_t e = 0; e < frf.entries.size(); ++e) {
+    const auto& entry = wanted.entries[e];
     const auto coordinate = [](const std::string& name) {
       return static_cast<int>(std::find(kCoordinates.begin(), kCoordinates.end(), name) -
                               kCoordinates.begin());
@@ -53,7 +54,9 @@ Taps taps_of(const dynamics::FrequencyResponse& measured, const Eigen::VectorXd&
             entry.response_position_m.value_or(0),
             entry.reference_position_m.value_or(0),
             entry.h,
-            entry.variance};
+            entry.variance,
+            dynamics::doubtful_intervals(frf.frequency_hz, frf.entries[e].h, frf.entries[e].variance,
+                                         frequency_hz)};
     if (tap.response < 4 && tap.reference < 4) taps.push_back(std::move(tap));
   }
   return taps;

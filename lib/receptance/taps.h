@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dynamics/frequency_response.h"
+#include "dynamics/interpolation.h"
 #include "receptance/beam.h"
 
 namespace stablecut::receptance {
@@ -18,6 +19,8 @@ struct Tap {
   double response_m = 0, reference_m = 0;  ///< distances from the face, or from the artefact's tip
   Eigen::VectorXcd h;                      ///< [lines] receptance
   Eigen::VectorXd variance;                ///< [lines] of the complex value, given or estimated
+  std::vector<dynamics::DoubtfulInterval> doubtful =
+      {};  ///< between measured lines, where `h` may be far off
 
   bool has_slope() const { return response % 2 == 1 || reference % 2 == 1; }
   bool is_of(int a, int b) const { return response == a && reference == b; }

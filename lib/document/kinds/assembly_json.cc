@@ -1,12 +1,12 @@
 #include "document/kinds/assembly_json.h"
 
 #include <initializer_list>
-#include <map>
 
 #include "base/error.h"
 #include "base/number_text.h"
 #include "base/range.h"
 #include "base/units.h"
+#include "document/kinds/beam_segments_json.h"
 #include "document/kinds/frf_json.h"
 #include "document/kinds/modal_table_json.h"
 #include "document/kinds/tool_joint_json.h"
@@ -18,14 +18,7 @@ namespace stablecut::document {
 namespace {
 
 constexpr int kMostLines = 10'000'000;
-constexpr Bound kPoisson{.least = 0, .most = 0.5, .words = "Poisson's ratio, from 0 to 0.5"};
-constexpr Bound kLossFactor{.least = 0, .most = 1, .words = "a loss factor from 0 to 1"};
 constexpr Bound kPosition{.least = 0, .words = "a distance from the tip, not below 0 mm"};
-constexpr int kMostFlutes = 40;
-constexpr double kFlutedDiameter = 0.8;  // equivalent diameter over the cutter's, for bending [Kops1990]
-constexpr Bound kSize{.least = 0, .most = 1e6, .open_least = true, .words = "a size above 0 mm"};
-
-using Materials = std::map<std::string, receptance::BeamSegment>;  // segments without sizes
 
 Eigen::VectorXd frequencies_from(const Node& node) {
   if (node.json().is_object()) {
@@ -45,60 +38,6 @@ Eigen::VectorXd frequencies_from(const Node& node) {
     if (!(values[i] > values[i - 1])) node.items()[i].fail("expected increasing frequencies");
   }
   return values;
-}
-
-Materials materials_from(const Node& node) {
-  Materials materials;
-  if (!node.json().is_object()) node.fail("expected an object of materials by name");
-  for (const auto& [name, unused] : node.json().items()) {
-    const Node item = node.at(name);
-    item.check_names({"youngs_modulus_gpa", "density_kg_per_m3", "poisson_ratio", "loss_factor"});
-    receptance::BeamSegment& material = materials[name];
-    material.youngs_modulus_pa = item.at("youngs_modulus_gpa").number(kPositive) * 1e9;
-    material.density_kg_per_m3 = item.at("density_kg_per_m3").number(kPositive);
-    material.poisson_ratio = item.at("poisson_ratio").number(kPoisson);
-    material.loss_factor = item.at("loss_factor").number(kLossFactor);
-  }
-  return materials;
-}
-
-// A fluted length bends, and weighs, about as a round bar of its equivalent diameter [Kops1990].
-void take_flutes(const Node& item, receptance::BeamSegment& segment) {
-  const auto flutes = item.find("flutes"), equivalent = item.find("equivalent_diameter_mm");
-  if (flutes) flutes->integer(1, kMostFlutes);
-  if (flutes && !equivalent) segment.outer_diameter_m *= kFlutedDiameter;
-  if (equivalent) {
-    const double diameter = metres_from_mm(equivalent->number(kSize));
-    if (!(diameter <= segment.outer_diameter_m)) equivalent->fail("expected at most outer_diameter_mm");
-    segment.outer_diameter_m = diameter;
-  }
-  if (!(segment.inner_diameter_m < segment.outer_diameter_m)) {
-    item.at("inner_diameter_mm")
-        .fail("expected less than the equivalent diameter of the flutes, " +
-              number_text(mm_from_metres(segment.outer_diameter_m)) + " mm");
-  }
-}
-
-receptance::BeamChain segments_from(const Node& node, const Materials& materials) {
-  receptance::BeamChain segments;
-  for (const Node& item : node.items(1)) {
-    item.check_names({"length_mm", "outer_diameter_mm", "inner_diameter_mm", "material", "flutes",
-                      "equivalent_diameter_mm"});
-    const Node material = item.at("material");
-    const auto found = materials.find(material.text());
-    if (found == materials.end()) material.fail("expected one of /materials");
-    receptance::BeamSegment segment = found->second;
-    segment.length_m = metres_from_mm(item.at("length_mm").number(kSize));
-    segment.outer_diameter_m = metres_from_mm(item.at("outer_diameter_mm").number(kSize));
-    if (const auto inner = item.find("inner_diameter_mm")) {
-      segment.inner_diameter_m = metres_from_mm(inner->number(kNotNegative));
-      if (!(segment.inner_diameter_m < segment.outer_diameter_m))
-        inner->fail("expected less than outer_diameter_mm");
-    }
-    take_flutes(item, segment);
-    segments.push_back(segment);
-  }
-  return segments;
 }
 
 // ---- documents inside ----
@@ -184,7 +123,8 @@ class AssemblyReader {
                                               : receptance::BeamTheory::kEulerBernoulli;
     const Node tool = root_.at("tool");
     tool.check_names({"segments"});
-    assembly_.tool = segments_from(tool.at("segments"), materials_);
+    find_material_doubts(root_.at("materials"));
+    assembly_.tool = chain_from(tool.at("segments"), 1);
     if (const auto mass = root_.find("sensor_mass_g"))
       assembly_.tip_mass_kg = 1e-3 * mass->number(kNotNegative);
     in_each_direction(root_.at("holder"), [&](const Node& node, bool x, bool y) { read_holder(node, x, y); });
@@ -213,6 +153,22 @@ class AssemblyReader {
     read(node.at("y"), false, true);
   }
 
+  receptance::BeamChain chain_from(const Node& node, std::size_t least) {
+    receptance::BeamChain chain = segments_from(node, materials_, least);
+    if (chain.empty()) return chain;
+    if (const auto doubt = receptance::size_doubt(chain))
+      document_.size_doubts.push_back({place(node), *doubt, chain});
+    return chain;
+  }
+
+  void find_material_doubts(const Node& node) {
+    for (const auto& [name, material] : materials_) {
+      if (const auto doubt =
+              receptance::material_doubt(material.youngs_modulus_pa, material.density_kg_per_m3))
+        document_.material_doubts.push_back({place(node.at(name)), *doubt, material});
+    }
+  }
+
   static void forbid(const Node& node, std::initializer_list<const char*> names, const char* expected) {
     for (const char* name : names) {
       if (const auto found = node.find(name)) found->fail(expected);
@@ -222,7 +178,9 @@ class AssemblyReader {
   void read_holder(const Node& node, bool x, bool y) {
     receptance::HeldBy held;
     std::optional<Node> given;
-    if (node.has("modal_table") || node.has("receptances")) {
+    if (node.json().is_string()) {
+      node.word({"fixed"});
+    } else if (node.has("modal_table") || node.has("receptances")) {
       forbid(node, {"segments", "end"},
              "expected either segments and an end, which may hold modal_table or receptances, or one of "
              "these alone");
@@ -230,14 +188,15 @@ class AssemblyReader {
     } else {
       node.check_names({"segments", "end", "sensor_mass_g", "artefact"});
       forbid(node, {"sensor_mass_g", "artefact"}, "expected only beside receptances");
-      held.segments = segments_from(node.at("segments"), materials_);
       const Node end = node.at("end");
       if (end.json().is_object()) {
         given = end;
-      } else {
-        held.end = end.word({"fixed", "free"}) == "fixed" ? receptance::HolderEnd::kFixed
-                                                          : receptance::HolderEnd::kFree;
+      } else if (end.word({"fixed", "free"}) == "free") {
+        held.end = receptance::HolderEnd::kFree;
       }
+      // Only what is free needs a segment: any other end may be the joint's face itself.
+      const bool free = held.end == receptance::HolderEnd::kFree;
+      if (free || node.has("segments")) held.segments = chain_from(node.at("segments"), free ? 1 : 0);
     }
     if (given) held.end = receptance::HolderEnd::kGiven;
     if (x) assembly_.held[0] = held;
@@ -292,7 +251,7 @@ class AssemblyReader {
       measurement.sensor_mass_kg = 1e-3 * mass->number(kNotNegative);
     if (const auto artefact = node.find("artefact")) {
       artefact->check_names({"segments"});
-      measurement.artefact = segments_from(artefact->at("segments"), materials_);
+      measurement.artefact = chain_from(artefact->at("segments"), 1);
     }
     try {
       return receptance::measured_holder(measurement, assembly_.theory, assembly_.frequency_hz);
@@ -369,6 +328,8 @@ Json holder_quality_to_json(const AssemblyDocument& document) {
     }
     item["below_noise"] = band_of(quality.noisy_hz);
     item["not_passive"] = band_of(quality.unphysical_hz);
+    for (const auto& gap : quality.doubtful)
+      item["interpolated"].push_back({{"band_hz", {gap.from_hz, gap.to_hz}}, {"error", gap.error}});
     result[d == 0 ? "x" : "y"] = item;
   }
   return result;

@@ -11,6 +11,7 @@
 #include "document/text/json_text.h"
 #include "receptance/assembly.h"
 #include "receptance/measured_holder.h"
+#include "receptance/plausibility.h"
 
 namespace stablecut::document {
 
@@ -28,12 +29,26 @@ struct HolderFinding {
   std::size_t lines = 0;  ///< of the assembly
 };
 
+/// A material that is no solid's, and segments that are no tool's: likely in other units.
+struct DoubtfulMaterial {
+  std::string place;  ///< document and JSON pointer, as messages name it
+  receptance::MaterialDoubt doubt;
+  receptance::BeamSegment material;
+};
+struct DoubtfulSize {
+  std::string place;
+  receptance::SizeDoubt doubt;
+  receptance::BeamChain segments;
+};
+
 struct AssemblyDocument {
   receptance::Assembly assembly;
   /// Of directions whose holder was measured.
   std::array<std::optional<receptance::HolderQuality>, 2> quality;
   std::vector<Remark> remarks;  ///< on how the files that it names were read
   std::vector<HolderFinding> findings;
+  std::vector<DoubtfulMaterial> material_doubts;
+  std::vector<DoubtfulSize> size_doubts;
 };
 
 /// Reads the file that the document names by {"file": path}.

@@ -1,6 +1,7 @@
 #include "document/measured/frf_column_plan.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/range.h"
 #include "document/measured/frf_column_name.h"
@@ -188,6 +189,7 @@ void entries_by_count(const Source& source, const TableRow& row, ColumnPlan& pla
       entry.reference = column % 4 == 1 ? "x" : "y";
     }
     entry.parts = {column, column + 1};
+    if (count == 3 && parts_at_end(row) == true) std::swap(entry.parts[0], entry.parts[1]);
     plan.entries.push_back(entry);
   }
 }
@@ -206,6 +208,21 @@ std::size_t number_of_columns(const TableRow& row) {
   std::size_t width = row.fields.size();
   while (width > 0 && !is_number(row.fields[width - 1]) && !is_no_number(row.fields[width - 1])) --width;
   return width;
+}
+
+bool part_at_end(const std::string& field) {
+  const auto name = column_name(field);
+  return name && name->unit.empty() && name->response.empty() && name->reference.empty() &&
+         (name->part == ColumnPart::kReal || name->part == ColumnPart::kImaginary);
+}
+
+std::optional<bool> parts_at_end(const TableRow& row) {
+  std::vector<ColumnPart> parts;
+  for (std::size_t i = number_of_columns(row); i < row.fields.size(); ++i) {
+    if (part_at_end(row.fields[i])) parts.push_back(column_name(row.fields[i])->part);
+  }
+  if (parts.size() != 2 || parts[0] == parts[1]) return std::nullopt;
+  return parts[0] == ColumnPart::kImaginary;
 }
 
 void refuse_column_count(const Source& source, const TableRow& row) {

@@ -45,6 +45,13 @@ bool is_no_number(const std::string& field);
 /// Columns of a row of numbers: empty fields at its end, and a unit behind the numbers, are none.
 std::size_t number_of_columns(const TableRow& row);
 
+/// Whether a field names the real or the imaginary part and nothing else.
+bool part_at_end(const std::string& field);
+
+/// The order in which the last fields of a row of numbers, but for a unit, name the two parts of a single
+/// entry: true for `Imag Real`, false for `Real Imag`. Empty: they do not.
+std::optional<bool> parts_at_end(const TableRow& row);
+
 /// Throws DataError for a row with another number of columns than a table without names may have.
 [[noreturn]] void refuse_column_count(const Source& source, const TableRow& row);
 

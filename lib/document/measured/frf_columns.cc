@@ -20,13 +20,14 @@ constexpr double kMostRadians = 1.001 * kPi;  // a phase without a unit is in de
 constexpr double kLongestRecord = 1e-3;       // Hz between lines: a record of 1000 s
 constexpr double kMostCoherence = 1 + 1e-6;   // a 1 as programs round it
 
-// The unit at the end of a row: its last field, or the last few together.
+// The unit at the end of a row: its last field, or the last few together, but for the names of the parts.
 std::optional<FrfUnit> unit_at_end(const TableRow& row) {
   constexpr std::size_t kMostFields = 8;
   std::string text;
   for (std::size_t count = 1; count <= std::min(kMostFields, row.fields.size()); ++count) {
     const std::string& field = row.fields[row.fields.size() - count];
     if (is_number(field)) break;
+    if (part_at_end(field)) continue;
     text = field + (text.empty() ? "" : " " + text);
     if (const auto unit = frf_unit(text)) return unit;
   }
@@ -84,7 +85,9 @@ class ColumnReader {
       ++numbers;
     if (numbers < 3) return false;
     if (numbers == row.fields.size()) return true;
-    if (unit_at_end(row) && index == 0) return true;
+    const bool names_parts = std::any_of(row.fields.begin(), row.fields.end(), part_at_end);
+    if (index == 0 && (names_parts ? parts_at_end(row).has_value() : unit_at_end(row).has_value()))
+      return true;
     return std::all_of(row.fields.begin() + static_cast<std::ptrdiff_t>(numbers), row.fields.end(),
                        [](const std::string& field) { return field.empty(); });
   }

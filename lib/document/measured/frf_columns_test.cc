@@ -48,6 +48,13 @@ TEST_CASE("three columns in whatever dress") {
            "1.5 2 3 m / N\n2.5 4 5\n",
            "1.5\t2000\t3000\t[mm/N]\n2.5\t4000\t5000\n",
            "Frequency Real Imaginary m/N\n1.5 2 3\n2.5 4 5\n",
+           "1.5 3 2 m/N Imag Real\n2.5 5 4\n",
+           "1.5\t3000\t2000\t[mm/N]\tImag\tReal\n2.5\t5000\t4000\n",
+           "1.5 3 2 Imag Real m / N\n2.5 5 4\n",
+           "1.5 2 3 m/N Real Imag\n2.5 4 5\n",
+           "1.5 3 2 Imag Real\n2.5 5 4\n",
+           "mm/N Imag Real\n1.5 3000 2000\n2.5 5000 4000\n",
+           "Frequency Imag Real m/N\n1.5 3 2\n2.5 5 4\n",
            "\"Frequency\",\"Real\",\"Imag\"\n\"1.5\",\"2\",\"3\"\n\"2.5\",\"4\",\"5\"\n",
        }) {
     INFO(text);
@@ -76,6 +83,9 @@ TEST_CASE("units and quantities") {
   CHECK(overruled.place.line == 1);
   CHECK(complaint("1 2 3\n", {.form = FrfForm::kCutPro})
             .find("f: line 1: expected a unit at the end of the first line") == 0);
+  CHECK(read("1 3 2 mm/N Imag Real\n", {.form = FrfForm::kCutPro}).entries[0].h[0] == Complex(2e-3, 3e-3));
+  CHECK(complaint("1 2 3 m/N Imag Imag\n2 3 4\n").find("f: line 1: m/N Imag Imag: expected a unit") == 0);
+  CHECK(complaint("1 2 3 m/N Imag\n2 3 4\n").find("f: line 1: m/N Imag: expected a unit") == 0);
   CHECK(complaint("Hz,Re (V/V),Im (V/V)\n1,1,0\n").find("f: line 1: V/V: expected") == 0);
   CHECK(complaint("f (s),Re,Im\n1,1,0\n").find("f: line 1: \"f (s)\": a time: expected frequencies") == 0);
 }
