@@ -84,8 +84,8 @@ TEST_CASE("vectors at fixed poles scatter as their deviations say, less than whe
       }
     }
   }
-  // But for chance: a mode in a hundred is said to be bent by a satellite (shape_errors.h).
-  CHECK(larger <= 8);
+  // One of these 48 modes is said by chance to be bent by a satellite (shape_errors.h); all others are surer.
+  CHECK(larger <= 4);
   // 384 squares, of which some 290 are independent: 8 %.
   CHECK(square / count == Approx(1).margin(0.3));
 }
