@@ -64,6 +64,21 @@ std::string list_of(const std::vector<modal::EntryName>& entries, const std::str
   return list;
 }
 
+std::string scaled(const modal::FitFinding& finding) {
+  const auto part = [&](std::size_t from, std::size_t count, double factor) {
+    const std::vector<modal::EntryName> entries(finding.missing.begin() + from,
+                                                finding.missing.begin() + from + count);
+    return "H" + list_of(entries, " or H") + " is " + number_text(factor, 4) + " times what fits the others";
+  };
+  const bool or_cross = finding.missing.size() == 4;
+  const modal::EntryName& first = finding.missing[0];
+  return part(0, or_cross ? 2 : finding.missing.size(), finding.factor) +
+         (or_cross ? ", or " + part(2, 2, 1 / finding.factor) : "") +
+         ": a wrong sensitivity or unit; modes are doubled to make up for it (--scale " + first.response +
+         first.reference + "=" + number_text(1 / finding.factor, 4) +
+         (finding.missing.size() > 1 ? ", if it is that one)" : ")");
+}
+
 std::string unexplained(const modal::FitFinding& finding) {
   const std::string modes = finding.restricted ? "modes of this model" : "the modes found";
   const std::string left = finding.missing.empty()
@@ -159,10 +174,7 @@ std::string words_of(const modal::FitFinding& finding) {
       return "the responses come " + number(1e3 * finding.delay_s) +
              " ms late: no structure has such phases (--delay " + number_text(1e3 * finding.delay_s, 4) + ")";
     case modal::FitFindingKind::kScaled:
-      return "H" + list_of(finding.missing, " or H") + " is " + number_text(finding.factor, 4) +
-             " times what fits the others: a wrong sensitivity or unit; modes are doubled to make up for it "
-             "(--scale " +
-             list_of({finding.missing[0]}) + "=" + number_text(1 / finding.factor, 4) + ")";
+      return scaled(finding);
     case modal::FitFindingKind::kNoMode:
       return "no mode in the band stands out of the noise";
     case modal::FitFindingKind::kNotConverged:

@@ -121,7 +121,10 @@ TEST_CASE("what a fit leaves to be known, in words") {
         "the responses come 1.5 ms late: no structure has such phases (--delay 1.5)");
   check({.kind = FitFindingKind::kScaled, .missing = {kXx, {"y", "y"}}, .factor = 1.25},
         "Hxx or Hyy is 1.25 times what fits the others: a wrong sensitivity or unit; modes are doubled to "
-        "make up for it (--scale xx=0.8)");
+        "make up for it (--scale xx=0.8, if it is that one)");
+  check({.kind = FitFindingKind::kScaled, .missing = {kXx, {"y", "y"}, kXy, kYx}, .factor = 1.25},
+        "Hxx or Hyy is 1.25 times what fits the others, or Hxy or Hyx is 0.8 times what fits the others: a "
+        "wrong sensitivity or unit; modes are doubled to make up for it (--scale xx=0.8, if it is that one)");
   check({.kind = FitFindingKind::kNoMode}, "no mode in the band stands out of the noise");
   check({.kind = FitFindingKind::kNotConverged}, "the fit did not converge");
   check({.kind = FitFindingKind::kUnexplained, .missing = {kXy}, .error = 0.7, .lo_hz = 500, .hi_hz = 1000},

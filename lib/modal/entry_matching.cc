@@ -35,6 +35,8 @@ constexpr double kClearResidue = 100, kMostDamping = 0.3;
 constexpr std::size_t kLeastResidues = 2;  // that tell a scale
 // A scale is off by at least that (logarithm), and by so many deviations.
 constexpr double kLeastScale = 0.01, kSignificant = 2;
+// Logarithm of the odds from which on an entry is named, and not all that it could be.
+constexpr double kSureWhich = 3;
 constexpr double kLeastDeviation = 0.003;  // of a logarithm of four residues: poles are not known exactly
 const double kDeviationOfMedian = 1.4826 * 1.2533;  // from the median absolute deviation, of a median
 
@@ -236,12 +238,21 @@ class Matching {
     if (all.count < kLeastResidues ||
         std::abs(all.value) < std::max(kLeastScale, kSignificant * all.deviation))
       return;
-    if (std::abs(cross.value) > std::abs(all.value) / 2) {
-      // The scale of a cross entry shows against its mirror image too.
+    // The scale of a cross entry shows against its mirror image too, that of a driving point does not; what
+    // misplaced hits do to mirror images scatters over the modes: Student's distribution.
+    const double freedom = static_cast<double>(cross.count) - 1;
+    const auto unlikely = [&](double off) {
+      return (freedom + 1) / 2 * std::log1p(std::pow(off / cross.deviation, 2) / freedom);
+    };
+    const double gain = unlikely(cross.value) - unlikely(std::abs(cross.value) - std::abs(all.value));
+    if (gain > kSureWhich) {
       found_.push_back(
           {.curve = cross.value * all.value < 0 ? mirrors.ij : mirrors.ji, .factor = std::exp(-all.value)});
     } else {
-      found_.push_back({.curve = *mirrors.ii, .other = mirrors.jj, .factor = std::exp(all.value)});
+      found_.push_back({.curve = *mirrors.ii,
+                        .other = mirrors.jj,
+                        .factor = std::exp(all.value),
+                        .or_cross = gain > -kSureWhich});
     }
   }
 

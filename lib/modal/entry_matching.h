@@ -18,6 +18,8 @@ struct EntryMismatch {
   double delay_s = 0;                  ///< by how much the response is late: H exp(i omega delay) has none
   double factor = 1;                   ///< how many times too large it is
   bool all = false;                    ///< all curves are, as far as can be told
+  /// It may also be a cross entry between both directions that is 1 / factor times too large.
+  bool or_cross = false;
 };
 
 /// The data without the mismatch; weights go with a factor.

@@ -273,10 +273,31 @@ void judge_entries(const dynamics::FrequencyResponse& measured, const std::vecto
                          .missing = {name(mismatch.curve)},
                          .delay_s = mismatch.delay_s,
                          .factor = mismatch.factor};
-      if (mismatch.other) finding.missing.push_back(name(*mismatch.other));
+      if (mismatch.other) {
+        const EntryName one = name(mismatch.curve), other = name(*mismatch.other);
+        finding.missing.push_back(other);
+        if (mismatch.or_cross) {
+          finding.missing.push_back({one.response, other.response});
+          finding.missing.push_back({other.response, one.response});
+        }
+      }
       fit.findings.push_back(std::move(finding));
     }
   }
+}
+
+// What the modes leave of all curves, beyond their noise: |model - h| / |h|, norms over lines and curves.
+double error_beyond_noise(const std::vector<GroupFit>& fits) {
+  double left = 0, square = 0;
+  for (const GroupFit& fit : fits) {
+    for (std::size_t c = 0; c < fit.data.curves.size(); ++c) {
+      const Curve& curve = fit.data.curves[c];
+      const double error = (curve_of(fit.modes(), curve, fit.data.s) - curve.h).squaredNorm();
+      left += std::max(error - fit.variance[c].sum(), 0.0);
+      square += curve.h.squaredNorm();
+    }
+  }
+  return std::sqrt(left / square);
 }
 
 // Where modes explain too little of a curve or a band, whatever limits the fit, or there is none in the band.
@@ -287,9 +308,8 @@ void judge_explained(const std::vector<Group>& groups, const std::vector<GroupFi
                   [](const dynamics::Mode& mode) { return mode.out_of_band; }))
     fit.findings.push_back({.kind = FitFindingKind::kNoMode});
   if (options.modes || !options.poles.empty()) return;
-  if (fit.limited_by_model && fit.relative_error > kNoFit) {
-    fit.findings.push_back(
-        {.kind = FitFindingKind::kUnexplained, .error = fit.relative_error, .restricted = restricted});
+  if (const double left = error_beyond_noise(fits); fit.limited_by_model && left > kNoFit) {
+    fit.findings.push_back({.kind = FitFindingKind::kUnexplained, .error = left, .restricted = restricted});
     return;
   }
   for (std::size_t g = 0; g < groups.size(); ++g) {

@@ -82,23 +82,16 @@ class Proof {
   Proof(const GroupFit& fit, const CurveVariances& given, const SelectionOptions& options)
       : fit_(fit), given_(given), options_(options) {}
 
-  // The curves of `now` mended, if modes explain them better than `now` explains them as they are: both by
-  // the noise that the mended curves show.
-  std::optional<Mended> of(const GroupFit& now, EntryMismatch mismatch) const {
-    if (mismatch.factor == 1 && is_worse(now, mismatch)) return std::nullopt;
-    std::optional<GroupFit> after = from_the_others(now, mismatch);
-    if (!after) after = searched(mended(now.data, mismatch), given_);
-    estimate(*after, mismatch);
-    GroupFit before = now;
-    before.data = mended(after->data, inverse_of(mismatch));
-    before.refined = before.refine(now.modes(), kBetween);
-    const double inflation = after->inflation_of(after->refined);
-    const double gain = criterion(before, inflation) - criterion(*after, inflation);
-    if (!(gain > kNumbersOfMismatch * std::log(now.data.values()))) return std::nullopt;
-    // Against a model error a chi-square tells little: fewer modes alone prove nothing.
-    if (after->regime == Regime::kModelError && after->refined.chi_square > before.refined.chi_square)
-      return std::nullopt;
-    return Mended{mismatch, std::move(*after), gain};
+  // The curves of `now` mended, if modes explain them better than `now` explains them as they are. A factor
+  // is looked for from the other curves' modes and from the one that was suggested: either may be far off.
+  std::optional<Mended> of(const GroupFit& now, const EntryMismatch& suggested) const {
+    if (suggested.factor == 1 && is_worse(now, suggested)) return std::nullopt;
+    EntryMismatch told = suggested;
+    std::optional<GroupFit> from_others = from_the_others(now, told);
+    std::optional<Mended> best = from_others ? proved(now, told, std::move(*from_others)) : std::nullopt;
+    if (from_others && suggested.factor == 1) return best;
+    std::optional<Mended> other = proved(now, suggested, searched(mended(now.data, suggested), given_));
+    return !best || (other && other->gain > best->gain) ? other : best;
   }
 
   // What a search finds in the mended curves, for the next mismatch to be looked for. The mismatch stays: of
@@ -108,6 +101,22 @@ class Proof {
   }
 
  private:
+  // `after` is a fit of the curves without the mismatch. Both are judged by the noise that the mended curves
+  // show.
+  std::optional<Mended> proved(const GroupFit& now, EntryMismatch mismatch, GroupFit after) const {
+    estimate(after, mismatch);
+    GroupFit before = now;
+    before.data = mended(after.data, inverse_of(mismatch));
+    before.refined = before.refine(now.modes(), kBetween);
+    const double inflation = std::min(after.inflation_of(after.refined), now.inflation_of(now.refined));
+    const double gain = criterion(before, inflation) - criterion(after, inflation);
+    if (!(gain > kNumbersOfMismatch * std::log(now.data.values()))) return std::nullopt;
+    // Against a model error a chi-square tells little: fewer modes alone prove nothing.
+    if (after.regime == Regime::kModelError && after.refined.chi_square > before.refined.chi_square)
+      return std::nullopt;
+    return Mended{mismatch, std::move(after), gain};
+  }
+
   // Poles that imitate a delay are no worse for curves without it: where they are, there was none. Linear
   // least squares tell at once, and spare a search.
   static bool is_worse(const GroupFit& now, const EntryMismatch& mismatch) {

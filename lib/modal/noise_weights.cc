@@ -58,7 +58,8 @@ CurveVariances scatter_of_curves(const FitData& data) {
   const dynamics::NoiseShapes floors = dynamics::floor_shapes(data.s.imag());
   CurveVariances variance;
   for (const Curve& curve : data.curves)
-    variance.push_back(dynamics::estimated_variance(data.s.imag(), curve.h, curve.h.cwiseAbs(), floors));
+    variance.push_back(
+        dynamics::estimated_variance(data.s.imag(), curve.h, curve.h.cwiseAbs(), floors, true));
   return variance;
 }
 
