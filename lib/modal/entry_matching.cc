@@ -277,8 +277,9 @@ FitData mended(FitData data, const EntryMismatch& mismatch) {
   return data;
 }
 
-bool matters(const EntryMismatch& mismatch) {
-  return mismatch.factor == 1 || std::abs(std::log(mismatch.factor)) >= kLeastScale;
+bool matters(const FitData& data, const EntryMismatch& mismatch) {
+  return std::abs(std::log(mismatch.factor)) >= kLeastScale ||
+         std::abs(mismatch.delay_s) * data.highest() >= kLeastScale;
 }
 
 double best_delay(double highest, const std::function<double(double)>& value) {

@@ -25,8 +25,9 @@ struct EntryMismatch {
 /// The data without the mismatch; weights go with a factor.
 FitData mended(FitData data, const EntryMismatch& mismatch);
 
-/// Whether a factor is off by as much as a suggested one has to be; a delay always matters.
-bool matters(const EntryMismatch& mismatch);
+/// Whether a factor is off by as much as a suggested one has to be, or a delay turns the highest line by that
+/// (rad).
+bool matters(const FitData& data, const EntryMismatch& mismatch);
 
 /// The delay (s, of either sign, up to 6 ms) at which a function is largest. `highest` (rad/s) is that of the
 /// curves behind it.

@@ -207,7 +207,7 @@ std::vector<EntryMismatch> proved_mismatches(const GroupFit& fit, const CurveVar
       std::optional<Mended> better = proof.of(now, suggested);
       if (better && (!best || better->gain > best->gain)) best = std::move(better);
     }
-    if (!best || !matters(best->mismatch)) break;
+    if (!best || !matters(fit.data, best->mismatch)) break;
     proved.push_back(best->mismatch);
     now = proof.without(now, best->mismatch);
   }

@@ -58,8 +58,7 @@ CurveVariances scatter_of_curves(const FitData& data) {
   const dynamics::NoiseShapes floors = dynamics::floor_shapes(data.s.imag());
   CurveVariances variance;
   for (const Curve& curve : data.curves)
-    variance.push_back(
-        dynamics::estimated_variance(data.s.imag(), curve.h, curve.h.cwiseAbs(), floors, true));
+    variance.push_back(dynamics::estimated_variance(data.s.imag(), curve.h, curve.h.cwiseAbs(), floors));
   return variance;
 }
 
