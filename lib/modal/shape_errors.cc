@@ -177,20 +177,21 @@ std::vector<Eigen::VectorXcd> hysteretic_changes(const FitData& data,
 void add_hysteresis(const FitData& data, const ModeParameters& parameters, const Eigen::VectorXd& x,
                     const NormalEquations& normal, const std::vector<dynamics::Mode>& modes,
                     std::vector<Eigen::VectorXd>& errors) {
-  // With curves less the change, and more than they are by it, chi-square and its gradient tell all products.
-  FitData less = data, more = data;
+  // With curves less the change, and less twice of it, chi-square and its gradient tell all products.
+  FitData less = data;
   const std::vector<Eigen::VectorXcd> changes = hysteretic_changes(data, modes);
-  for (std::size_t c = 0; c < changes.size(); ++c) {
-    less.curves[c].h -= changes[c];
-    more.curves[c].h += changes[c];
-  }
+  const auto take_off = [&] {
+    for (std::size_t c = 0; c < changes.size(); ++c) less.curves[c].h -= changes[c];
+  };
   const std::vector<bool> outside = out_of_band(data, modes);
-  const NormalEquations below = Likelihood(less, parameters, outside).evaluate(x, true),
-                        above = Likelihood(more, parameters, outside).evaluate(x, true);
-  // Of residuals r = model - h and a change d of the model: J^T W d, r^T W d, d^T W d.
-  const Eigen::VectorXd cross = (below.gradient - above.gradient) / 2;
-  const double along = (below.chi_square - above.chi_square) / 4,
-               square = (below.chi_square + above.chi_square) / 2 - normal.chi_square;
+  take_off();
+  const NormalEquations once = Likelihood(less, parameters, outside).evaluate(x, true);
+  take_off();
+  const double twice = Likelihood(less, parameters, outside).evaluate(x, false).chi_square;
+  // Of residuals r = model - h and a change d of the model: J^T W d, d^T W d, r^T W d.
+  const Eigen::VectorXd cross = once.gradient - normal.gradient;
+  const double square = (twice + normal.chi_square) / 2 - once.chi_square,
+               along = (once.chi_square - normal.chi_square - square) / 2;
   const Eigen::VectorXd adapted = inverse_normal_matrix(normal) * cross;
   const double slope = along - adapted.dot(normal.gradient), curvature = square - adapted.dot(cross);
   if (getenv("DBG"))
