@@ -25,6 +25,7 @@ constexpr double kStepTolerance = 1e-13;  // relative size of a step that ends a
 // cost.
 constexpr std::size_t kLastSteps = 20;
 constexpr double kNextToNothing = 1e-3;
+constexpr std::size_t kPatience = 240;  // steps after which one that has settled ends
 
 // Least squares depend on the residual r of all lines and its Jacobian J only through J^T J, J^T r and |r|^2.
 // So the solver gets a short equivalent: with U^T U = J^T J the residual (U^-T J^T r, rest) and the Jacobian
@@ -74,12 +75,28 @@ Eigen::VectorXd removal_loss(const ModeParameters& parameters, const Eigen::Vect
   return loss;
 }
 
-// The refinement was stopped while it moved along something that the curves hardly see.
-bool has_settled(const ceres::Solver::Summary& summary) {
-  const auto& steps = summary.iterations;
-  return summary.IsSolutionUsable() && steps.size() > kLastSteps &&
-         steps[steps.size() - 1 - kLastSteps].cost - summary.final_cost < kNextToNothing * summary.final_cost;
+// Costs of the steps so far: the last ones brought next to nothing, along something that the curves hardly
+// see.
+bool has_settled(const std::vector<double>& costs) {
+  return costs.size() > kLastSteps &&
+         costs[costs.size() - 1 - kLastSteps] - costs.back() < kNextToNothing * costs.back();
 }
+
+// Ends a refinement that has settled without having converged in a usual number of steps.
+class Patience : public ceres::IterationCallback {
+ public:
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
+    costs_.push_back(step.cost);
+    settled_ = has_settled(costs_);
+    return settled_ && costs_.size() > kPatience ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                                 : ceres::SOLVER_CONTINUE;
+  }
+  bool settled() const { return settled_; }
+
+ private:
+  std::vector<double> costs_;
+  bool settled_ = false;
+};
 
 }  // namespace
 
@@ -116,12 +133,15 @@ RefinedModes refine_modes(const FitData& data, const std::vector<dynamics::Mode>
   options.max_num_line_search_step_size_iterations = 0;  // a step that meets a bound is cut there
   options.logging_type = ceres::SILENT;
   options.num_threads = 1;
+  Patience patience;
+  options.callbacks.push_back(&patience);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
 
   result.modes = parameters.unpack(x);
   for (std::size_t k = 0; k < start.size(); ++k) result.modes[k].out_of_band = start[k].out_of_band;
-  result.converged = summary.termination_type == ceres::CONVERGENCE || has_settled(summary);
+  result.converged =
+      summary.termination_type == ceres::CONVERGENCE || (summary.IsSolutionUsable() && patience.settled());
   const NormalEquations normal = likelihood.evaluate(x, true);
   result.chi_square = normal.chi_square;
   result.removal_loss = removal_loss(parameters, x, normal);

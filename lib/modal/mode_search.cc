@@ -11,8 +11,8 @@
 namespace stablecut::modal {
 namespace {
 
-// Of refinements between changes of the weights, and of the last one.
-constexpr Effort kBetween{60, 0.01}, kLast{960, 1e-5};
+// Of refinements between changes of the weights, of the last ones on the way, and of the final one.
+constexpr Effort kBetween{60, 0.01}, kLast{240, 1e-5}, kFinal{960, 1e-5};
 constexpr int kParts = 4;    // of a refinement that may be given up
 constexpr int kRescues = 3;  // modes that may be added before the noise is given up
 
@@ -153,13 +153,13 @@ GroupFit settled(GroupFit fit, const SelectionOptions& options) {
 
 // The last refinement may still make a mode too narrow to be one, but for modes at given poles.
 void refine_to_the_end(GroupFit& fit, const SelectionOptions& options) {
-  fit.refined = fit.refine(fit.modes(), kLast);
+  fit.refined = fit.refine(fit.modes(), kFinal);
   if (options.poles.size() > 0) return;
   const auto is_narrow = [&](const dynamics::Mode& mode) { return is_too_narrow(fit.data, mode); };
   while (std::any_of(fit.modes().begin(), fit.modes().end(), is_narrow)) {
     std::vector<dynamics::Mode> wider = fit.modes();
     std::erase_if(wider, is_narrow);
-    fit.refined = fit.refine(wider, kLast);
+    fit.refined = fit.refine(wider, kFinal);
   }
 }
 
