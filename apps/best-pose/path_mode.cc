@@ -134,6 +134,7 @@ robot::PathTask path_task(robot::ToolPath path, const PathOptions& options, cons
     task.most_turn_per_metre = radians_from_degrees(*options.redundancy_rate_deg_per_mm) * 1e3;
   if (const auto& turn = where.redundancy_deg) {
     cli::refuse_if(turn->to - turn->from > 360, "--redundancy: expected at most a full turn");
+    cli::refuse_beyond(kMostTurns, "--redundancy", turn->count, "angles");
     task.redundancy = Range{radians_from_degrees(turn->from), radians_from_degrees(turn->to), turn->count};
   }
   return task;

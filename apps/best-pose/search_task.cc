@@ -18,7 +18,6 @@ constexpr double kPathSingularityMargin = 0.01;
 constexpr Range kDefaultRedundancyDeg{-180, 175, 72};
 constexpr double kSquare = 1e-6;  // cosine of the angle between plane axes at right angles
 constexpr int kMostPoints = 4'000'000;
-constexpr int kMostTurns = 3600;
 
 Eigen::Vector3d direction(const SearchOptions::Vector& value, const Eigen::Vector3d& otherwise,
                           const std::string& option) {

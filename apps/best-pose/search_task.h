@@ -12,6 +12,9 @@
 
 namespace stablecut {
 
+/// Angles of the redundancy that a search looks at, at most.
+inline constexpr int kMostTurns = 3600;
+
 /// As the options give it; what is not given has a default.
 struct SearchOptions {
   using Vector = std::optional<std::array<double, 3>>;

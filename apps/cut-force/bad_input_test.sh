@@ -32,6 +32,9 @@ check_jq "and null, and the other is there" slow.json '.points[0].growth_per_too
 
 refused 64 '^cut-force: --depth: 0: expected a number above 0' cut-force cut.json --depth 0
 refused 64 '^cut-force: --speed: nan: expected' cut-force cut.json --speed nan
+refused 64 '^cut-force: --harmonics: 2000000000: expected a whole number from 0 to 100000' cut-force cut.json --harmonics 2000000000
+refused 64 '^cut-force: --passes, --steps: 2000000000: expected at most 1000000000 steps of all cuts' \
+  cut-force cut.json --passes 2000000000 --table "$table" --depth 1 --speed 9000
 refused 64 '^cut-force: --steps: 4: expected' cut-force cut.json --steps 4 --table "$table" --depth 1 --speed 9000
 refused 64 '^cut-force: --points: expected with --table' cut-force cut.json --points points.csv
 refused 64 '^cut-force: --table: expected --points, or --depth and --speed' cut-force cut.json --table "$table"

@@ -22,6 +22,9 @@ namespace {
 
 constexpr double kDefaultDepthMm = 1;
 constexpr int kDefaultHarmonics = 10;
+// What one run computes at most: some hours.
+constexpr int kMostHarmonics = 100'000, kMostSteps = 100'000;
+constexpr double kMostPassages = 1e9, kMostMaps = 1e8;
 
 bool is_positive(double value) { return value > 0; }
 bool is_minority(double value) { return value > 0 && value < 0.5; }
@@ -42,7 +45,8 @@ class CutForce : public cli::Tool {
                            is_positive);
     cli::add_number_option(app, "--speed", speed_, "Spindle speed, rpm: for the power", "a number above 0",
                            is_positive);
-    cli::add_integer_option(app, "--harmonics", harmonics_, 0, "Harmonics of the force (default: 10)");
+    cli::add_integer_option(app, "--harmonics", harmonics_, 0, "Harmonics of the force (default: 10)",
+                            kMostHarmonics);
 
     cli::begin_group(app, "Simulation");
     add_file_option(app, "--table", table_path_, "Modal table of the tool tip");
@@ -53,7 +57,7 @@ class CutForce : public cli::Tool {
     cli::add_integer_option(app, "--passes", request_.passes, 1,
                             "Teeth to follow (default: until what was there at the start is gone)");
     cli::add_integer_option(app, "--steps", request_.steps, 8,
-                            "Steps of a tooth period (default: as many as the growth needs)");
+                            "Steps of a tooth period (default: as many as the growth needs)", kMostSteps);
     app.add_flag("--from-rest", request_.from_rest,
                  "Begin at rest in the full cut, a blow, instead of beside the periodic motion");
     cli::add_choice_option(app, "--tooth-paths", paths_, "circles|cycloids",
@@ -149,6 +153,10 @@ class CutForce : public cli::Tool {
         name = table.source.name;
         if (points.empty()) throw document::DataError(name, "", "", "expected one cut at least");
       }
+      cli::refuse_beyond(
+          kMostPassages, "--passes, --steps",
+          static_cast<double>(points.size()) * request_.passes.value_or(1) * request_.steps.value_or(1),
+          "steps of all cuts");
       if (paths_ == "cycloids") request_.path = milling::ToothPath::kCycloid;
       cli::ProgressBar bar("cut-force: points", !quiet());
       document.points = simulated_points(structure, cut, points, request_, threads(),
@@ -193,6 +201,9 @@ class CutForce : public cli::Tool {
     std::erase_if(document.cuts, [](const auto& cut) { return !cut.observed_stable; });
     if (document.cuts.empty())
       throw document::DataError(table.source.name, "", "", "expected cuts that were observed, one at least");
+    cli::refuse_beyond(kMostMaps, "--samples",
+                       static_cast<double>(document.cuts.size()) * samples_.value_or(0),
+                       "samples times cuts");
     if (samples_) document.request.samples = *samples_;
     if (seed_) document.request.seed = static_cast<unsigned>(*seed_);
     if (wrong_share_) document.request.wrong_share = *wrong_share_;

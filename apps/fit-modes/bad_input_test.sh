@@ -61,6 +61,8 @@ refused 64 '^fit-modes: --scale: xy=0: expected a factor' fit-modes --scale xy=0
 refused 64 '^fit-modes: --scale: zz=2: expected an entry of good.json' fit-modes --scale zz=2 good.json
 refused 64 '^fit-modes: --modes: many: expected auto or a number' fit-modes --modes many good.json
 refused 64 '^fit-modes: --modes: 0: expected' fit-modes --modes 0 good.json
+refused 64 '^fit-modes: --synthesize: 12000000: expected at most 10000000 values' \
+  fit-modes --synthesize 1:2:3000000 "$data/thesis-table-6-2.json"
 refused 64 '^fit-modes: --seed: expected with --synthesize' fit-modes --seed 3 good.json
 refused 64 '^fit-modes: --fitted: expected without --synthesize' fit-modes --synthesize 1:2:2 --fitted x "$data/thesis-table-6-2.json"
 refused 64 '^fit-modes: --synthesize: 1:2: expected FROM:TO:COUNT' fit-modes --synthesize 1:2

@@ -1,9 +1,16 @@
 #include "frf_output.h"
 
+#include <cmath>
+
 #include "cli/exit_status.h"
 #include "dynamics/synthesis.h"
 
 namespace stablecut {
+namespace {
+
+constexpr double kMostValues = 1e7;  // some 2 GB while they are written
+
+}  // namespace
 
 void FrfOutput::declare(CLI::App& app) {
   app.add_flag("--convert", convert_, "Write the measurement as it was read, an frf, instead of a fit");
@@ -34,6 +41,9 @@ void FrfOutput::check() const {
 }
 
 dynamics::FrequencyResponse FrfOutput::synthesized(const dynamics::ModalModel& model) const {
+  cli::refuse_beyond(kMostValues, "--synthesize",
+                     static_cast<double>(synthesize_->count) * std::pow(model.dofs.size(), 2),
+                     "values, lines times responses");
   const std::vector<double> lines = synthesize_->values();
   dynamics::FrequencyResponse frf =
       dynamics::synthesize(model, Eigen::Map<const Eigen::VectorXd>(lines.data(), lines.size()));

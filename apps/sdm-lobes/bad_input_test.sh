@@ -109,6 +109,13 @@ refused 64 '^sdm-lobes: --kr: missing' sdm-lobes "$table" --teeth 2 --kt 600
 refused 64 '^sdm-lobes: -: expected standard input for one input only' sdm-lobes --cut - <"$cut"
 refused 64 '^sdm-lobes: --speed: 5000:20000: expected FROM:TO:COUNT' sdm-lobes "$table" --cut "$cut" --speed 5000:20000
 refused 64 '^sdm-lobes: --depth: -1: expected depths from 0' sdm-lobes "$table" --cut "$cut" --depth -1:2:3
+refused 64 '^sdm-lobes: --speed: 1:2:2000000000: expected .* COUNT at most 10000000' sdm-lobes "$table" --cut "$cut" --speed 1:2:2000000000
+refused 64 '^sdm-lobes: --speed, --depth: 20000000: expected at most 10000000 points of the chart .*--shard' \
+  sdm-lobes "$table" --cut "$cut" --speed 5000:9000:2000 --depth 0:1:10000
+refused 64 '^sdm-lobes: --speed, --samples: 2001000: expected at most 1000000 speeds' \
+  sdm-lobes "$table" --cut "$cut" --speed 5000:9000:1000 --samples 2000
+refused 64 '^sdm-lobes: --speed, --intervals: 192000000000: expected at most 100000000000' \
+  sdm-lobes "$table" --cut "$cut" --speed 5000:9000:3 --method sdm --intervals 4000
 refused 64 '^sdm-lobes: --speed: 0: expected speeds above 0' sdm-lobes "$table" --cut "$cut" --speed 0:2:3
 refused 64 '^sdm-lobes: --teeth: 0: expected' sdm-lobes "$table" --teeth 0 --kt 1 --kr 1 --milling up --immersion 1
 refused 64 '^sdm-lobes: --kt: nan: expected' sdm-lobes "$table" --teeth 1 --kt nan --kr 1 --milling up --immersion 1

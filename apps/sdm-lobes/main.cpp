@@ -16,6 +16,7 @@
 #include "milling/envelope.h"
 #include "options.h"
 #include "surface_option.h"
+#include "words.h"
 
 namespace stablecut {
 namespace {
@@ -23,9 +24,6 @@ namespace {
 // The chart where neither the cut nor an option gives one.
 constexpr Range kDefaultSpeed{2000, 20000, document::kDefaultChartCount};
 constexpr Range kDefaultDepth{0, 5, document::kDefaultChartCount};
-
-// An estimated error of the spectral radius from which on there is a warning.
-constexpr double kSuspectError = 2e-5;
 
 class SdmLobes : public cli::Tool {
  public:
@@ -114,6 +112,7 @@ class SdmLobes : public cli::Tool {
     const document::Json of = {
         {"sha256", cli::sha256(table.source.text)}, {"modes", modes_.listed()}, {"seed", seed_.value_or(1)}};
     parts_.take_part(of, lobes);
+    check_size(lobes, structures.size(), !parts_.paths.empty());
 
     const ChartAxes axes(lobes);
     if (parts_.paths.empty()) {
@@ -136,7 +135,7 @@ class SdmLobes : public cli::Tool {
     if (!parts_.shard)
       lobes.what_to_run =
           milling::what_to_run(structures, cutter, written_limits(lobes, axes), request, threads());
-    warn_if_not_converged(lobes);
+    for (const std::string& line : convergence_warnings(lobes, advice(Remedy::kModes))) warn(line);
     for (const std::string& line : doubtful_critical_modes(lobes.chart, models)) warn(line);
     write_document(main_output(), document::lobes_to_json(lobes));
   }
@@ -217,19 +216,6 @@ class SdmLobes : public cli::Tool {
                                                          static_cast<unsigned>(seed_.value_or(1))),
                                    axes.revolutions_per_s, axes.depths_m, lobes.chart.resolution,
                                    !limit_only_, threads(), [&](double share) { bar.show(share); });
-  }
-
-  void warn_if_not_converged(const document::LobesDocument& lobes) const {
-    const std::vector<std::string>& failure = lobes.chart.failure;
-    const auto first =
-        std::find_if(failure.begin(), failure.end(), [](const std::string& f) { return !f.empty(); });
-    if (first != failure.end())
-      warn(*first + advice(Remedy::kModes) + "; speeds without a limit: " +
-           std::to_string(
-               std::count_if(first, failure.end(), [](const std::string& f) { return !f.empty(); })));
-    if (lobes.scheme.method == milling::StabilityMethod::kSpectral && lobes.convergence() > kSuspectError)
-      warn("the spectral radius has converged only to " + number_text(lobes.convergence()) +
-           " (see /convergence)");
   }
 
   CutOptions cut_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <string_view>
 
 #include "base/number_text.h"
@@ -14,6 +15,8 @@
 namespace stablecut {
 namespace {
 
+// What one run computes at most: some hours, or a gigabyte.
+constexpr double kMostRadii = 1e7, kMostSpeeds = 1e6, kMostIntervals = 1e11;
 constexpr double kLeastRatio = 0.01;  // Kr/Kt of metals is 0.1 to 1
 
 bool is_positive(double value) { return value > 0; }
@@ -246,6 +249,20 @@ void PartOptions::take_part(const document::Json& of, document::LobesDocument& l
   lobes.shard = shard;
   lobes.shard->of = of;
   lobes.speed_rpm = shard->part_of(lobes.speed_rpm);
+}
+
+void check_size(const document::LobesDocument& lobes, std::size_t tables, bool merged) {
+  const auto speeds = static_cast<double>(lobes.speed_rpm.size());
+  const std::string parts = " (parts of a chart: --shard)";
+  cli::refuse_beyond(kMostRadii, "--speed, --depth", speeds * static_cast<double>(lobes.depth_mm.size()),
+                     "points of the chart" + parts);
+  if (merged) return;
+  cli::refuse_beyond(kMostSpeeds, lobes.samples > 0 ? "--speed, --samples" : "--speed",
+                     speeds * (static_cast<double>(tables) + lobes.samples),
+                     "speeds, of all tables and samples" + parts);
+  if (lobes.scheme.method == milling::StabilityMethod::kSemiDiscretization)
+    cli::refuse_beyond(kMostIntervals, "--speed, --intervals", speeds * std::pow(lobes.scheme.intervals, 3),
+                       "speeds times cubes of intervals" + parts);
 }
 
 }  // namespace stablecut

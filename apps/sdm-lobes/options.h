@@ -112,4 +112,7 @@ class PartOptions {
   void take_part(const document::Json& of, document::LobesDocument& lobes) const;
 };
 
+/// Throws WrongUsage where a chart is more than one run computes; `merged`: its parts are computed already.
+void check_size(const document::LobesDocument& lobes, std::size_t tables, bool merged);
+
 }  // namespace stablecut

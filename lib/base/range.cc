@@ -49,7 +49,7 @@ std::optional<Range> parse_range(std::string_view text) {
   const auto from = parse_number(parts[0]);
   const auto to = parse_number(parts[1]);
   const auto count = parse_integer(parts[2]);
-  if (!from || !to || !count || *count < 1) return std::nullopt;
+  if (!from || !to || !count || *count < 1 || *count > kMostInRange) return std::nullopt;
   if (*count == 1 ? *from != *to : !(*from < *to)) return std::nullopt;
   return Range{*from, *to, *count};
 }

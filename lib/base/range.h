@@ -31,7 +31,11 @@ std::optional<double> parse_number(std::string_view text);
 /// A decimal integer that fills the whole text, or nothing.
 std::optional<int> parse_integer(std::string_view text);
 
-/// `FROM:TO:COUNT` with finite FROM <= TO and COUNT >= 1, FROM = TO exactly when COUNT is 1; else nothing.
+/// The most values of a range that is read.
+inline constexpr int kMostInRange = 10'000'000;
+
+/// `FROM:TO:COUNT` with finite FROM <= TO and COUNT from 1 to kMostInRange, FROM = TO exactly when COUNT is
+/// 1; else nothing.
 std::optional<Range> parse_range(std::string_view text);
 
 /// `LO:HI`, finite, LO < HI; else nothing. The count of the result is 2.

@@ -15,7 +15,7 @@ TEST_CASE("a range holds both ends exactly") {
 
 TEST_CASE("what is not a range is nothing") {
   for (const char* text : {"", "1", "1:2", "1:2:0", "1:2:1", "2:1:5", "2:2:5", "a:2:5", "1:2:5:6", "1:inf:5",
-                           "nan:2:5", "1:2:2.5", "1:2:5 ", " 1:2:5", "1:2:-3", "1::3"}) {
+                           "nan:2:5", "1:2:10000001", "1:2:2.5", "1:2:5 ", " 1:2:5", "1:2:-3", "1::3"}) {
     INFO(text);
     CHECK_FALSE(parse_range(text));
   }

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/number_text.h"
+
 namespace stablecut::cli {
 
 enum class ExitStatus {
@@ -39,6 +41,13 @@ class WrongUsage : public Failure {
 /// Throws WrongUsage with the text if the options are wrong.
 inline void refuse_if(bool wrong, const std::string& text) {
   if (wrong) throw WrongUsage(text);
+}
+
+/// Refuses what one run does not take on, hours of work or more memory than machines have, before it begins:
+/// `amount` of `what` that `options` ask for together. `what` may end with what else there is to do.
+inline void refuse_beyond(double most, const std::string& options, double amount, const std::string& what) {
+  refuse_if(amount > most,
+            options + ": " + number_text(amount, 12) + ": expected at most " + number_text(most, 12) + " " + what);
 }
 
 }  // namespace stablecut::cli

@@ -84,8 +84,10 @@ void begin_group(CLI::App& app, const std::string& heading) { app.option_default
 
 CLI::Option* add_range_option(CLI::App& app, const std::string& name, std::optional<Range>& value,
                               const std::string& description) {
-  return add_parsed_option(app, name, value, description, "FROM:TO:COUNT",
-                           "FROM:TO:COUNT, increasing, or FROM:FROM:1", parse_range);
+  return add_parsed_option(
+      app, name, value, description, "FROM:TO:COUNT",
+      "FROM:TO:COUNT, increasing, or FROM:FROM:1; COUNT at most " + std::to_string(kMostInRange),
+      parse_range);
 }
 
 CLI::Option* add_band_option(CLI::App& app, const std::string& name, std::optional<Range>& value,
@@ -125,12 +127,14 @@ CLI::Option* add_number_option(CLI::App& app, const std::string& name, std::opti
 }
 
 CLI::Option* add_integer_option(CLI::App& app, const std::string& name, std::optional<int>& value, int least,
-                                const std::string& description) {
-  return add_parsed_option(app, name, value, description, "N",
-                           "a whole number, at least " + std::to_string(least),
-                           [least](const std::string& text) {
+                                const std::string& description, int most) {
+  const std::string bounds = most < std::numeric_limits<int>::max()
+                                 ? " from " + std::to_string(least) + " to " + std::to_string(most)
+                                 : ", at least " + std::to_string(least);
+  return add_parsed_option(app, name, value, description, "N", "a whole number" + bounds,
+                           [least, most](const std::string& text) {
                              const auto number = parse_integer(text);
-                             return number && *number >= least ? number : std::nullopt;
+                             return number && *number >= least && *number <= most ? number : std::nullopt;
                            });
 }
 

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -119,9 +120,9 @@ CLI::Option* add_vector_option(CLI::App& app, const std::string& name,
 CLI::Option* add_repeated_option(CLI::App& app, const std::string& name, const std::string& type_name,
                                  const std::string& description,
                                  const std::function<void(const std::string&)>& take);
-/// An option whose text must be a whole number from `least` on.
+/// An option whose text must be a whole number from `least` on, up to `most`.
 CLI::Option* add_integer_option(CLI::App& app, const std::string& name, std::optional<int>& value, int least,
-                                const std::string& description);
+                                const std::string& description, int most = std::numeric_limits<int>::max());
 
 /// --unit: a displacement, velocity or acceleration over a force.
 CLI::Option* add_unit_option(CLI::App& app, std::optional<document::FrfUnit>& value,

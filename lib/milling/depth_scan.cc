@@ -5,6 +5,7 @@
 #include <complex>
 #include <limits>
 
+#include "base/error.h"
 #include "numerics/chebyshev.h"
 #include "numerics/eigenvalues.h"
 #include "numerics/golden_section.h"
@@ -41,6 +42,7 @@ constexpr int kMostBisections = 100;      // iterations for a boundary
 constexpr int kBisectEvery = 4;           // iterations, instead of a secant step
 constexpr double kCorrectionStep = 1e-3;  // of the panel, for the slope at a boundary
 constexpr int kGoldenSteps = 40;
+constexpr int kMostMaps = 2000;       // computed one by one, for the boundaries of one scan
 constexpr std::size_t kMeasured = 8;  // depths at which the interpolation is compared with the map
 
 // What the last coefficients say of those that were left out.
@@ -197,6 +199,11 @@ std::vector<double> DepthScan::spectral_radii(const std::vector<double>& depths_
   return result;
 }
 
+double radius_error(double radius, double better) {
+  const double known = std::min(better, kFarAbove);
+  return std::abs(std::min(radius, kFarAbove) - known) / std::max(1.0, known);
+}
+
 double DepthScan::error_against(const PeriodMap& better) const {
   std::vector<const Panel*> worst;
   for (const Panel& panel : panels_) {
@@ -213,8 +220,7 @@ double DepthScan::error_against(const PeriodMap& better) const {
                             computed = milling::spectral_radii(better, depths);
   double error = 0;
   for (std::size_t i = 0; i < depths.size(); ++i) {
-    if (computed[i] > kFarAbove) continue;
-    error = std::max(error, std::abs(radii[i] - computed[i]) / std::max(1.0, computed[i]));
+    error = std::max(error, radius_error(radii[i], computed[i]));
   }
   return error;
 }
@@ -227,8 +233,10 @@ Complex DepthScan::largest_multiplier(double depth) const {
 }
 
 double DepthScan::excess(double depth) const {
-  const std::optional<double> value = panel_at(depth).interpolated(depth);
-  return (value ? *value : std::abs(largest_multiplier(depth))) - 1;
+  if (const std::optional<double> value = panel_at(depth).interpolated(depth)) return *value - 1;
+  if (++maps_ > kMostMaps)
+    throw InvalidArgument("the multipliers change too often up to the largest depth to be followed");
+  return std::abs(largest_multiplier(depth)) - 1;
 }
 
 // Where the excess changes sign: secant steps by the Illinois rule [Dowell1971] with bisections in between,

@@ -19,12 +19,18 @@ struct StabilityBoundary {
   std::complex<double> multiplier;  ///< the one on the unit circle there, to some digits
 };
 
+/// From this radius on nobody needs its digits: it is only above.
+inline constexpr double kFarAbove = 100;
+
+/// What a radius differs from a better one by, of max(1, radius), both as far as they lie below kFarAbove.
+/// Where it is below the distance of the radius from 1, both say the same about stability.
+double radius_error(double radius, double better);
+
 class DepthScan {
  public:
   /// Tolerances of the interpolation, of max(1, radius): for a grid of radii, and where only limits are
   /// wanted, which are corrected with the map itself.
   static constexpr double kExact = 2e-7, kForLimits = 1e-4;
-  static constexpr double kFarAbove = 100;
 
   /// Follows the multipliers over the depths from 0 to `largest_depth_m` > 0. The map must outlive the scan.
   DepthScan(const PeriodMap& map, double largest_depth_m, double tolerance = kExact);
@@ -34,12 +40,12 @@ class DepthScan {
   std::vector<double> spectral_radii(const std::vector<double>& depths_m) const;
 
   /// The largest difference of the radii from those of a better map, of max(1, radius), at a few depths where
-  /// the interpolation is worst: at depth 0 and in the panels of the largest errors. Depths with radii above
-  /// kFarAbove, whose digits nobody needs, are left out.
+  /// the interpolation is worst: at depth 0 and in the panels of the largest errors. See radius_error().
   double error_against(const PeriodMap& better) const;
 
   /// Every boundary of stability, by depth, to 1e-9 of the largest depth or the map's accuracy. Two that are
-  /// closer than some thousandth of the largest depth may be missed.
+  /// closer than some thousandth of the largest depth may be missed. Throws InvalidArgument where that takes
+  /// thousands of maps.
   std::vector<StabilityBoundary> boundaries() const;
 
  private:
@@ -82,6 +88,7 @@ class DepthScan {
   const PeriodMap& map_;
   double largest_depth_m_, tolerance_;
   std::vector<Panel> panels_;
+  mutable int maps_ = 0;  // computed for boundaries
 };
 
 }  // namespace stablecut::milling

@@ -182,6 +182,17 @@ TEST_CASE("a boundary below the first node of an unresolved first panel is found
   CHECK(boundaries.front().depth_m < 1e-3);
 }
 
+TEST_CASE("a radius outside of its error is on the right side of 1, also where a better one is far above") {
+  CHECK(radius_error(0.5, 0.4) == Approx(0.1));
+  CHECK(radius_error(30, 20) == Approx(0.5));
+  CHECK(radius_error(1e6, 1e9) == 0);
+  for (const double radius : {0.2, 0.9, 0.999, 1.001, 1.5, 4.0, 90.0, 1e5}) {
+    for (const double better : {0.1, 0.8, 0.9999, 1.0001, 2.0, 30.0, 1e4}) {
+      if (std::abs(radius - 1) > radius_error(radius, better)) CHECK((radius > 1) == (better > 1));
+    }
+  }
+}
+
 TEST_CASE("the error of a scan is that of its radii against a better map") {
   const KnownMap map = alone([](double a) { return 0.9 + 0.2 * a; });
   const KnownMap better = alone([](double a) { return 0.9 + 0.2 * a + 1e-5; });

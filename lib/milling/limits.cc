@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/error.h"
 #include "base/units.h"
 #include "milling/circle_scan.h"
 #include "milling/cut_schedule.h"
@@ -182,8 +183,12 @@ std::vector<StabilityCrossing> crossings_at(const TipStructure& structure, const
       return crossings_of(structure, *helical, cutter.tooth_period_s(revolutions_per_s));
   }
   const SpectralMap map(structure, cutter, revolutions_per_s, points);
-  return scanned_crossings(DepthScan(map, largest_depth_m, DepthScan::kForLimits), map,
-                           cutter.tooth_period_s(revolutions_per_s));
+  try {
+    return scanned_crossings(DepthScan(map, largest_depth_m, DepthScan::kForLimits), map,
+                             cutter.tooth_period_s(revolutions_per_s));
+  } catch (const InvalidArgument& error) {
+    throw no_answer_at(revolutions_per_s, error.what());
+  }
 }
 
 const StabilityCrossing* limit_of(const std::vector<StabilityCrossing>& crossings) {

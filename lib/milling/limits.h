@@ -41,7 +41,8 @@ std::optional<SpeedLimits> circle_limits(const TipStructure& structure, const Cu
 /// Those of a scan over the depths of a map.
 std::vector<StabilityCrossing> scanned_crossings(const DepthScan& scan, const PeriodMap& map,
                                                  double tooth_period_s);
-/// Either, with `points` on the longest piece, whose error is not looked at.
+/// Either, with `points` on the longest piece, whose error is not looked at. Throws NoAnswer where a scan
+/// cannot follow the multipliers.
 std::vector<StabilityCrossing> crossings_at(const TipStructure& structure, const Cutter& cutter,
                                             double revolutions_per_s, double largest_depth_m, int points);
 

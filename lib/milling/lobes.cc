@@ -1,6 +1,7 @@
 #include "milling/lobes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -26,6 +27,17 @@ struct Column {
   SpeedLimits limits;
   std::vector<double> radii;  // empty without a grid
 };
+
+// Leaves out, as NaN, the radii that are no nearer to the truth than to 1, where `limits` that are known by
+// other means do not say the same: on which side of 1 they lie is not known.
+void leave_doubtful_out(const std::vector<double>& depths_m, double error,
+                        const std::vector<StabilityCrossing>* limits, std::vector<double>& radii) {
+  if (error < kUseless) return;
+  for (std::size_t d = 0; d < radii.size(); ++d) {
+    const bool agrees = limits != nullptr && stable_between(*limits, depths_m[d]) == (radii[d] < 1);
+    if (std::abs(radii[d] - 1) <= error && !agrees) radii[d] = std::numeric_limits<double>::quiet_NaN();
+  }
+}
 
 // The radii at a speed whose limits are known; raises the error to that of the radii. Far above 1 they need
 // more points than the limits.
@@ -62,7 +74,10 @@ Column column_of(const TipStructure& structure, const Cutter& cutter, double rev
   if (scheme.method == StabilityMethod::kSpectral && top > 0) {
     if (const auto limits = circle_limits(structure, cutter, revolutions_per_s, top)) {
       Column column{*limits, {}};
-      if (with_grid) column.radii = grid_of(structure, cutter, revolutions_per_s, depths_m, column.limits);
+      if (with_grid) {
+        column.radii = grid_of(structure, cutter, revolutions_per_s, depths_m, column.limits);
+        leave_doubtful_out(depths_m, column.limits.error, &column.limits.crossings, column.radii);
+      }
       return column;
     }
   }
@@ -77,11 +92,22 @@ Column column_of(const TipStructure& structure, const Cutter& cutter, double rev
   if (with_grid) {
     column.radii = scan.spectral_radii(depths_m);
     column.limits.error = std::max(period.error, scan.error_against(*period.map));
+    if (scheme.method == StabilityMethod::kSpectral)
+      leave_doubtful_out(depths_m, column.limits.error, nullptr, column.radii);
   }
   return column;
 }
 
 }  // namespace
+
+std::size_t StabilityChart::doubtful() const {
+  std::size_t count = 0;
+  for (Eigen::Index s = 0; s < spectral_radius.cols(); ++s) {
+    if (failure[static_cast<std::size_t>(s)].empty())
+      count += static_cast<std::size_t>(spectral_radius.col(s).array().isNaN().count());
+  }
+  return count;
+}
 
 StabilityChart stability_chart(const TipStructure& structure, const Cutter& cutter,
                                const std::vector<double>& revolutions_per_s,

@@ -32,8 +32,6 @@ constexpr double kConvergedByDisc = 1e-4;
 constexpr int kMostPointsByDisc = 24;
 // More where other teeth enter or leave while one cuts, at places that are no ends of its arc.
 constexpr double kMoreTogether = 2;
-// An error from which on there is no answer.
-constexpr double kUseless = 0.01;
 // Points to begin with: so many, and so many for each radian that the fastest mode turns in half a piece.
 constexpr double kFirstPoints = 7, kPointsPerRadian = 1.1;
 // A mode is out of reach that limits by itself only above so many times the largest depth.
@@ -47,7 +45,7 @@ constexpr int kPointsForOne = 6, kLeastAdded = 3;
 // Maps are compared at these shares of the largest depth. Depths with a radius above kFarAbove do not count;
 // where all are, the depths are divided by kLowerBy, down to kLeastShare of the largest.
 constexpr std::array<double, 4> kShares = {1, 0.5, 0.25, 1.0 / 16};
-constexpr double kFarAbove = DepthScan::kFarAbove, kLowerBy = 64, kLeastShare = 1e-5;
+constexpr double kLowerBy = 64, kLeastShare = 1e-5;
 // Below kNearRounding, kStagnation refinements in a row that do not divide the error by kGain: what is left
 // is rounding.
 constexpr double kNearRounding = 1e-5, kGain = 2;
@@ -55,23 +53,24 @@ constexpr int kStagnation = 3;
 // Shares of the largest depth at which the semi-discretization is compared with the collocation.
 constexpr std::array<double, 2> kSharesOfScheme = {1, 0.5};
 
-// The largest difference of two maps' radii over a few depths, of max(1, radius). Depths far above the limit
-// do not count, unless all are.
+// The largest difference of two maps' radii over a few depths, by radius_error(). Where all lie far above the
+// limit, lower depths are looked at too.
 double largest_difference(const PeriodMap& map, const PeriodMap& finer, double largest_depth_m) {
+  double error = 0;
   for (double top = largest_depth_m;; top /= kLowerBy) {
     std::vector<Eigen::MatrixXd> monodromy;
     for (const PeriodMap* of : {&map, &finer}) {
       for (const double share : kShares) monodromy.push_back(of->monodromy(share * top));
     }
     const auto multipliers = leading_multipliers(std::move(monodromy), 2 * map.structure().modes());
-    double error = -1;
+    bool enough = top < kLeastShare * largest_depth_m;
     for (std::size_t i = 0; i < kShares.size(); ++i) {
       const double radius = multipliers[i].cwiseAbs().maxCoeff();
       const double better = multipliers[kShares.size() + i].cwiseAbs().maxCoeff();
-      if (better <= kFarAbove || top < kLeastShare * largest_depth_m)
-        error = std::max(error, std::abs(radius - better) / std::max(1.0, better));
+      error = std::max(error, radius_error(radius, better));
+      enough = enough || better <= kFarAbove;
     }
-    if (error >= 0) return error;
+    if (enough) return error;
   }
 }
 

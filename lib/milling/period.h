@@ -51,6 +51,8 @@ PointPlan plan_by_tooth(const TipStructure& structure, const Cutter& cutter, dou
 /// The number of points to try after `points`.
 int more_points(int points);
 
+/// An error from which on a radius says nothing about stability by itself.
+inline constexpr double kUseless = 0.01;
 /// That there is no answer at a speed, and why.
 NoAnswer no_answer_at(double revolutions_per_s, const std::string& what);
 /// Throws it where an error is so large that the radius says nothing.
