@@ -230,3 +230,11 @@ check "nothing is said of the others, not $(cat err)" test ! -s err
 jq '.kr_n_per_mm2 = 0.3' "$cut" >ratio.json
 sdm-lobes "$table" --cut ratio.json "${small[@]}" --limit-only -o out.json 2>err
 check "a ratio Kr/Kt: said, not $(cat err)" grep -q '^sdm-lobes: warning: ratio.json: /kr_n_per_mm2: 0.3: .*a ratio Kr/Kt' err
+
+# A chart a hundred thousand times above its limits: no number of points gives the radii, but stable or not is sure.
+fit-modes --quiet "$data/taps/four.csv" -o soft.json
+sdm-lobes soft.json --cut "$cut" --depth 0:5:20 --speed 8000:16000:3 --best 0 -o far.json 2>err
+check "an error above the radius: said, not $(cat err)" grep -q '^sdm-lobes: warning: the spectral radius has converged only to .* of max(1, radius)' err
+check_jq "every radius that is stated is on the side of 1 that the limit says" far.json '. as $l |
+  [range(0; 3) as $s | range(0; 20) as $d | $l.spectral_radius[$d][$s] | numbers | (. > 1) == ($l.depth_mm[$d] > $l.limit[$s].depth_mm)] |
+  length > 0 and all'

@@ -46,8 +46,8 @@ inline void refuse_if(bool wrong, const std::string& text) {
 /// Refuses what one run does not take on, hours of work or more memory than machines have, before it begins:
 /// `amount` of `what` that `options` ask for together. `what` may end with what else there is to do.
 inline void refuse_beyond(double most, const std::string& options, double amount, const std::string& what) {
-  refuse_if(amount > most,
-            options + ": " + number_text(amount, 12) + ": expected at most " + number_text(most, 12) + " " + what);
+  refuse_if(amount > most, options + ": " + number_text(amount, 12) + ": expected at most " +
+                               number_text(most, 12) + " " + what);
 }
 
 }  // namespace stablecut::cli
