@@ -23,7 +23,7 @@ struct StabilityBoundary {
 inline constexpr double kFarAbove = 100;
 
 /// What a radius differs from a better one by, of max(1, radius), both as far as they lie below kFarAbove.
-/// Where it is below the distance of the radius from 1, both say the same about stability.
+/// Where it is below the distance of the radius, as far as that, from 1, both say the same about stability.
 double radius_error(double radius, double better);
 
 class DepthScan {

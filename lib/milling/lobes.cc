@@ -35,7 +35,8 @@ void leave_doubtful_out(const std::vector<double>& depths_m, double error,
   if (error < kUseless) return;
   for (std::size_t d = 0; d < radii.size(); ++d) {
     const bool agrees = limits != nullptr && stable_between(*limits, depths_m[d]) == (radii[d] < 1);
-    if (std::abs(radii[d] - 1) <= error && !agrees) radii[d] = std::numeric_limits<double>::quiet_NaN();
+    if (std::abs(std::min(radii[d], kFarAbove) - 1) <= error && !agrees)
+      radii[d] = std::numeric_limits<double>::quiet_NaN();
   }
 }
 
