@@ -146,9 +146,7 @@ def limits(folder):
         check(f"{most} MiB of memory", not started or (got == 0 and out) or (got == 70 and not out and "out of memory" in said[-1]),
               f"{got} {said}")
     # Where the JSON library cannot throw.
-    fed = folder / "fed.json"
-    fed.write_text(json.dumps(json.loads((data / "aluminium-cut.json").read_text()) | {"feed_per_tooth_mm": 0.1, "diameter_mm": 12}))
-    failed_with("memory for a document", 70, "cut-force: out of memory", ["cut-force", "--harmonics", "1000000000", str(fed)],
+    failed_with("memory for a document", 70, "fit-modes: out of memory", ["fit-modes", "--synthesize", "1:1000:2000000", TABLE],
                 limits=[(resource.RLIMIT_AS, 400 << 20)])
     for most in range(3, 9):
         got, out, said = run([*SMALL, TABLE, "-o", str(folder / "few.json")], limits=[(resource.RLIMIT_NOFILE, most)])
