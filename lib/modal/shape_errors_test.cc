@@ -68,7 +68,7 @@ TEST_CASE("intervals cover hysteretic damping") {
           });
       const Eigen::VectorXd deviation = table.deviation(found - table.modes.begin());
       Eigen::VectorXd error(10);
-      error << found->frequency_hz - mode.frequency_hz, found->damping_ratio - mode.damping_ratio;
+      error.head<2>() << found->frequency_hz - mode.frequency_hz, found->damping_ratio - mode.damping_ratio;
       const Eigen::Vector4cd vectors(found->psi_r[0] - mode.psi_r[0], found->psi_r[1] - mode.psi_r[1],
                                      found->psi_l[0] - mode.psi_l[0], found->psi_l[1] - mode.psi_l[1]);
       for (Eigen::Index i = 0; i < 4; ++i) {
