@@ -33,8 +33,8 @@ class FitChoice {
   void take_poles(const document::Input& input);
   modal::FitOptions options(Progress progress) const;
 
-  /// The lines that are fitted: those of --exclude, disturbed ones and, without a chosen band, those that
-  /// integration has ruined are left out. Throws InvalidArgument where none is left.
+  /// What is fitted: modal::usable_part without the lines of --exclude. Throws InvalidArgument where none is
+  /// left.
   dynamics::FrequencyResponse lines_to_fit(const dynamics::FrequencyResponse& measured,
                                            const modal::TapReport& tap, bool band_chosen) const;
   /// What of the choice belongs into the field `fit` of the table.

@@ -70,7 +70,7 @@ def with_fault(rng, fault, hz, s, exact, measured, noise):
     """Accelerances [2 x 2 x lines] with the fault, and the entry, and the number that mends it."""
     h, (i, j) = measured.copy(), rng.integers(2, size=2)
     entry = NAMES[i] + NAMES[j]
-    delay = np.exp(rng.uniform(np.log(5e-5), np.log(5e-3)))
+    delay = mends = np.exp(rng.uniform(np.log(5e-5), np.log(5e-3)))
     if fault == "drift":
         edge = rng.uniform(3, 12)
         walk = np.cumsum(rng.standard_normal(h.shape) * np.sqrt((hz[1] - hz[0]) / 2), axis=2)
@@ -85,8 +85,8 @@ def with_fault(rng, fault, hz, s, exact, measured, noise):
     elif fault == "late":
         h *= np.exp(-s * delay)
     elif fault in ("scale", "unit"):
-        delay = rng.uniform(1.02, 1.10)**rng.choice([-1, 1]) if fault == "scale" else rng.choice([1000, 0.001, 9.81, 1 / 9.81])
-        h[i, j] *= delay
+        mends = rng.uniform(1.02, 1.10)**rng.choice([-1, 1]) if fault == "scale" else rng.choice([1000, 0.001, 9.81, 1 / 9.81])
+        h[i, j] *= mends
     elif fault == "dead":
         h[i, j] = noise[i, j]
     elif fault == "exchanged":
@@ -95,7 +95,7 @@ def with_fault(rng, fault, hz, s, exact, measured, noise):
         h = h[::-1].copy()
     elif fault == "sign":
         h[i, j] *= -1
-    return h, entry, delay
+    return h, entry, mends
 
 
 def tap(rng, modes, fault):

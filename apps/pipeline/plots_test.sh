@@ -113,7 +113,7 @@ refused 64 '^plot-lobes: --per-mode: expected one input' "$scripts/plot-lobes" -
 for words in 'chatter, Hz' 'mode [0-9]*' 'lobe [0-9]*' '[0-9.]* mm at [0-9]* rpm'; do check "lobes: $words" grep -q ">$words<" lobes.svg; done
 "$scripts/plot-lobes" --plain --range 9000:11000 --depth :2 lobes.json -o plain.svg
 check "without frequencies, a part" test "$(grep -c 'chatter, Hz\|>lobe\|> *14000<' plain.svg)" -eq 0 -a "$(grep -c '> *10000<' plain.svg)" -ge 1
-jq '.label = "Fräser 12 mm"' lobes.json | "$scripts/plot-lobes" | grep -c '>Fräser 12 mm: Stability lobes'
+jq '.label = "Fräser 12 mm"' lobes.json | "$scripts/plot-lobes" -o label.svg && grep -q '>Fräser 12 mm: Stability lobes' label.svg
 check "a chart's label" test $? -eq 0
 sdm-lobes "$data/thesis-table-6-2.json" --cut "$data/thesis-cut.json" --speed 9000:12000:6 --depth 0:2:5 --samples 5 --quiet 2>/dev/null | "$scripts/plot-lobes" --probability -o probability.svg
 check "shading by probability, and the interval" test "$(grep -oE '>(probability of stability|95 % interval)<' probability.svg | sort -u | wc -l)" -eq 2

@@ -308,7 +308,7 @@ void judge_explained(const std::vector<Group>& groups, const std::vector<GroupFi
                   [](const dynamics::Mode& mode) { return mode.out_of_band; }))
     fit.findings.push_back({.kind = FitFindingKind::kNoMode});
   if (options.modes || !options.poles.empty()) return;
-  if (const double left = error_beyond_noise(fits); fit.limited_by_model && left > kNoFit) {
+  if (const double left = fit.limited_by_model ? error_beyond_noise(fits) : 0; left > kNoFit) {
     fit.findings.push_back({.kind = FitFindingKind::kUnexplained, .error = left, .restricted = restricted});
     return;
   }

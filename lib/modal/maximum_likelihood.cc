@@ -75,27 +75,22 @@ Eigen::VectorXd removal_loss(const ModeParameters& parameters, const Eigen::Vect
   return loss;
 }
 
-// Costs of the steps so far: the last ones brought next to nothing, along something that the curves hardly
-// see.
-bool has_settled(const std::vector<double>& costs) {
-  return costs.size() > kLastSteps &&
-         costs[costs.size() - 1 - kLastSteps] - costs.back() < kNextToNothing * costs.back();
-}
-
 // Ends a refinement that has settled without having converged in a usual number of steps.
 class Patience : public ceres::IterationCallback {
  public:
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
     costs_.push_back(step.cost);
-    settled_ = has_settled(costs_);
-    return settled_ && costs_.size() > kPatience ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
-                                                 : ceres::SOLVER_CONTINUE;
+    return costs_.size() > kPatience && settled() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                                  : ceres::SOLVER_CONTINUE;
   }
-  bool settled() const { return settled_; }
+  // The last steps brought next to nothing, along something that the curves hardly see.
+  bool settled() const {
+    return costs_.size() > kLastSteps &&
+           costs_[costs_.size() - 1 - kLastSteps] - costs_.back() < kNextToNothing * costs_.back();
+  }
 
  private:
-  std::vector<double> costs_;
-  bool settled_ = false;
+  std::vector<double> costs_;  // of the steps so far
 };
 
 }  // namespace

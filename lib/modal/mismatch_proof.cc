@@ -64,11 +64,9 @@ EntryMismatch inverse_of(EntryMismatch mismatch) {
   return mismatch;
 }
 
-// A fit of mended curves.
-struct Mended {
+struct Proven {
   EntryMismatch mismatch;
-  GroupFit fit;
-  double gain = 0;  // in Schwarz' criterion
+  double gain = 0;  // in Schwarz' criterion, of the mended curves
 };
 
 // Whether the curves have no free scales against each other.
@@ -84,13 +82,13 @@ class Proof {
 
   // The curves of `now` mended, if modes explain them better than `now` explains them as they are. A factor
   // is looked for from the other curves' modes and from the one that was suggested: either may be far off.
-  std::optional<Mended> of(const GroupFit& now, const EntryMismatch& suggested) const {
+  std::optional<Proven> of(const GroupFit& now, const EntryMismatch& suggested) const {
     if (suggested.factor == 1 && is_worse(now, suggested)) return std::nullopt;
     EntryMismatch told = suggested;
     std::optional<GroupFit> from_others = from_the_others(now, told);
-    std::optional<Mended> best = from_others ? proved(now, told, std::move(*from_others)) : std::nullopt;
+    std::optional<Proven> best = from_others ? proved(now, told, std::move(*from_others)) : std::nullopt;
     if (from_others && suggested.factor == 1) return best;
-    std::optional<Mended> other = proved(now, suggested, searched(mended(now.data, suggested), given_));
+    std::optional<Proven> other = proved(now, suggested, searched(mended(now.data, suggested), given_));
     return !best || (other && other->gain > best->gain) ? other : best;
   }
 
@@ -103,18 +101,19 @@ class Proof {
  private:
   // `after` is a fit of the curves without the mismatch. Both are judged by the noise that the mended curves
   // show.
-  std::optional<Mended> proved(const GroupFit& now, EntryMismatch mismatch, GroupFit after) const {
+  std::optional<Proven> proved(const GroupFit& now, EntryMismatch mismatch, GroupFit after) const {
     estimate(after, mismatch);
     GroupFit before = now;
     before.data = mended(after.data, inverse_of(mismatch));
     before.refined = before.refine(now.modes(), kBetween);
+    // A fit must not excuse its own misfit by a larger inflation.
     const double inflation = std::min(after.inflation_of(after.refined), now.inflation_of(now.refined));
     const double gain = criterion(before, inflation) - criterion(after, inflation);
     if (!(gain > kNumbersOfMismatch * std::log(now.data.values()))) return std::nullopt;
     // Against a model error a chi-square tells little: fewer modes alone prove nothing.
     if (after.regime == Regime::kModelError && after.refined.chi_square > before.refined.chi_square)
       return std::nullopt;
-    return Mended{mismatch, std::move(after), gain};
+    return Proven{mismatch, gain};
   }
 
   // Poles that imitate a delay are no worse for curves without it: where they are, there was none. Linear
@@ -202,9 +201,9 @@ std::vector<EntryMismatch> proved_mismatches(const GroupFit& fit, const CurveVar
   const Proof proof(fit, given, options);
   GroupFit now = fit;
   while (proved.size() < kMostMismatches) {
-    std::optional<Mended> best;
+    std::optional<Proven> best;
     for (const EntryMismatch& suggested : suggested_mismatches(now.data, now.start_poles, is_driving_point)) {
-      std::optional<Mended> better = proof.of(now, suggested);
+      std::optional<Proven> better = proof.of(now, suggested);
       if (better && (!best || better->gain > best->gain)) best = std::move(better);
     }
     if (!best || !matters(fit.data, best->mismatch)) break;

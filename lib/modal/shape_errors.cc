@@ -194,9 +194,7 @@ void add_hysteresis(const FitData& data, const ModeParameters& parameters, const
                along = (once.chi_square - normal.chi_square - square) / 2;
   const Eigen::VectorXd adapted = inverse_normal_matrix(normal) * cross;
   const double slope = along - adapted.dot(normal.gradient), curvature = square - adapted.dot(cross);
-  if (getenv("DBG"))
-    fprintf(stderr, "hyst share %g gain %g\n", -slope / curvature, slope * slope / curvature);
-  if (!(curvature > 0) || slope * slope / curvature < kChanceGain + 0.5) return;
+  if (!(curvature > 0) || slope * slope / curvature < chance_gain(1)) return;
   errors.push_back(to_coordinates(parameters, x, adapted * (slope / curvature)));
 }
 

@@ -210,8 +210,8 @@ std::optional<TapFinding> mended_mirrors(const Eigen::VectorXd& hz, const Channe
     best->least = *difference;
     best->most = median(measured.difference);
   };
-  try_as({.kind = TapFindingKind::kOppositeMirror, .entry = ab.name(), .mirror = ba.name()},
-         median(measured.opposite) < kOpposite ? std::optional(median(measured.opposite)) : std::nullopt);
+  if (const double sum = median(measured.opposite); sum < kOpposite)
+    try_as({.kind = TapFindingKind::kOppositeMirror, .entry = ab.name(), .mirror = ba.name()}, sum);
   if (aa == nullptr || bb == nullptr) return best;
   const auto try_exchange = [&](TapFinding finding, const Channel& mirror, const Channel& mirrored,
                                 const Channel& driving, const Channel& other) {
