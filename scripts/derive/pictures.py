@@ -1,14 +1,14 @@
 """Shared by the scripts of this folder that draw a picture: where it goes, and gnuplot."""
+import argparse
 import pathlib
 import subprocess
-import sys
 
 
 def output_path(usual):
     """The path given to the script, or the picture's place in the project (`usual`, from the project's root)."""
-    if len(sys.argv) > 1:
-        return pathlib.Path(sys.argv[1])
-    return pathlib.Path(__file__).resolve().parents[2] / usual
+    parser = argparse.ArgumentParser()
+    parser.add_argument("path", nargs="?", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2] / usual)
+    return parser.parse_args().path
 
 
 def block(name, points, digits=5):
