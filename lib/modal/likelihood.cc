@@ -132,7 +132,7 @@ Eigen::Matrix2Xd end_sizes(const FitData& data) {
 // From the coordinates of the table to the free parameters: their Jacobian is block diagonal.
 NormalEquations to_parameters(const ModeParameters& parameters, const Eigen::Ref<const Eigen::VectorXd>& x,
                               const NormalEquations& coordinates) {
-  NormalEquations result{coordinates.chi_square, Eigen::VectorXd(parameters.size()),
+  NormalEquations result{coordinates.sum_of_squares, Eigen::VectorXd(parameters.size()),
                          Eigen::MatrixXd(parameters.size(), parameters.size())};
   const Eigen::Index from = parameters.coordinates_per_mode(), to = parameters.per_mode();
   std::vector<Eigen::MatrixXd> slope;
@@ -186,7 +186,7 @@ NormalEquations Likelihood::evaluate(const Eigen::Ref<const Eigen::VectorXd>& x,
     }
   }
   PoleSums over_lines;
-  sums.chi_square = residual_.evaluate(poles, residue, with_matrix ? &over_lines : nullptr);
+  sums.sum_of_squares = residual_.evaluate(poles, residue, with_matrix ? &over_lines : nullptr);
   if (with_matrix) {
     PoleGrams grams(poles);
     std::vector<std::vector<CurveDerivative>> derivatives;
@@ -229,7 +229,7 @@ void Likelihood::add_priors(const Eigen::Ref<const Eigen::VectorXd>& x, bool wit
   const double lo = data_.lowest(), hi = data_.highest();
   const auto add = [&](Eigen::Index at, double expected, double deviation) {
     const double off = (x[at] - expected) / deviation;
-    result.chi_square += off * off / 2;
+    result.sum_of_squares += off * off / 2;
     if (!with_matrix) return;
     result.gradient[at] += off / deviation / 2;
     result.matrix(at, at) += 1 / (2 * deviation * deviation);
@@ -260,7 +260,7 @@ void Likelihood::add_size_priors(const std::vector<dynamics::Mode>& modes, Norma
       const Complex right = modes[k].psi_r[curve.response], left = modes[k].psi_l[curve.reference];
       const double weight = std::pow(kPriorSize * sizes_(above, static_cast<Eigen::Index>(c)), -2);
       const Complex made = right * left * own + std::conj(right * left) * mirror;
-      coordinates.chi_square += weight * std::norm(made);
+      coordinates.sum_of_squares += weight * std::norm(made);
       if (!with_matrix) continue;
       // By z of a coordinate it changes by z t g + conj(z t) g'.
       slope.setZero();
@@ -288,7 +288,5 @@ Eigen::MatrixXd inverse_normal_matrix(const NormalEquations& normal) {
   return factorized(normal.matrix)
       .solve(Eigen::MatrixXd::Identity(normal.matrix.rows(), normal.matrix.rows()));
 }
-
-Eigen::MatrixXd upper_factor(const NormalEquations& normal) { return factorized(normal.matrix).matrixU(); }
 
 }  // namespace stablecut::modal

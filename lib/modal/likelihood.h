@@ -7,16 +7,11 @@
 #include "modal/fit_data.h"
 #include "modal/mode_parameters.h"
 #include "modal/residual_sums.h"
+#include "numerics/levenberg_marquardt.h"
 
 namespace stablecut::modal {
 
-/// With r the weighted residual of all curves and J its Jacobian with respect to the parameters: |r|^2, J^T
-/// r, J^T J.
-struct NormalEquations {
-  double chi_square = 0;     ///< sum over lines and curves of |model - h|^2 / variance, see Curve::shared
-  Eigen::VectorXd gradient;  ///< [parameters]
-  Eigen::MatrixXd matrix;    ///< [parameters x parameters]
-};
+using numerics::NormalEquations;
 
 /// chi-square of modes and its derivatives, as functions of their free parameters. A weak prior, which is
 /// part of chi-square, holds modes outside the band near it, damped, and no larger than what is measured:
@@ -26,8 +21,9 @@ class Likelihood {
   /// `out_of_band` [modes]. Both references must outlive this.
   Likelihood(const FitData& data, const ModeParameters& parameters, std::vector<bool> out_of_band);
 
-  /// At the parameters x; without the matrix also without the gradient. Where the data's poles are fixed
-  /// their parameters have no gradient, and in the matrix a 1 on the diagonal alone.
+  /// chi-square, J^T r and J^T J at the parameters x, r being the weighted residual of all curves; without
+  /// the matrix also without the gradient. Where the data's poles are fixed their parameters have no
+  /// gradient, and in the matrix a 1 on the diagonal alone.
   NormalEquations evaluate(const Eigen::Ref<const Eigen::VectorXd>& x, bool with_matrix) const;
 
  private:
@@ -51,7 +47,5 @@ std::vector<bool> out_of_band(const FitData& data, const std::vector<dynamics::M
 /// Inverse of J^T J by Cholesky, with a ridge that is large enough where J^T J is singular (a mode without
 /// residue).
 Eigen::MatrixXd inverse_normal_matrix(const NormalEquations& normal);
-/// Upper triangular U with U^T U = J^T J plus that ridge.
-Eigen::MatrixXd upper_factor(const NormalEquations& normal);
 
 }  // namespace stablecut::modal

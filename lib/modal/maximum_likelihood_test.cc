@@ -122,8 +122,8 @@ TEST_CASE("errors that curves of one reference share enter chi-square, gradient 
     return sum;
   };
   const NormalEquations normal = likelihood.evaluate(x, true);
-  CHECK(normal.chi_square == Approx(product(errors(x), errors(x))).epsilon(1e-9));
-  CHECK(likelihood.evaluate(x, false).chi_square == normal.chi_square);
+  CHECK(normal.sum_of_squares == Approx(product(errors(x), errors(x))).epsilon(1e-9));
+  CHECK(likelihood.evaluate(x, false).sum_of_squares == normal.sum_of_squares);
   std::vector<std::vector<Eigen::VectorXcd>> slopes;
   const double step = 1e-6;
   for (Eigen::Index p = 0; p < x.size(); ++p) {
@@ -138,7 +138,7 @@ TEST_CASE("errors that curves of one reference share enter chi-square, gradient 
   for (Eigen::Index p = 0; p < x.size(); ++p) size[p] = std::sqrt(product(slopes[p], slopes[p]));
   for (Eigen::Index p = 0; p < x.size(); ++p) {
     CHECK(std::abs(normal.gradient[p] - product(slopes[p], errors(x))) <
-          1e-6 * size[p] * std::sqrt(normal.chi_square));
+          1e-6 * size[p] * std::sqrt(normal.sum_of_squares));
     for (Eigen::Index q = 0; q < x.size(); ++q)
       CHECK(std::abs(normal.matrix(p, q) - product(slopes[p], slopes[q])) < 1e-6 * size[p] * size[q]);
   }
@@ -157,7 +157,7 @@ TEST_CASE("modes outside the band are held by priors whose gradient is that of c
       free(data, parameters, std::vector(6, false));
   const Eigen::VectorXd gradient = held.evaluate(x, true).gradient - free.evaluate(x, true).gradient;
   const auto prior = [&](const Eigen::VectorXd& at) {
-    return held.evaluate(at, false).chi_square - free.evaluate(at, false).chi_square;
+    return held.evaluate(at, false).sum_of_squares - free.evaluate(at, false).sum_of_squares;
   };
   // At the lower end the first makes far more than is measured there.
   CHECK(prior(x) > 1e3);

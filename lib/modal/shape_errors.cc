@@ -187,11 +187,11 @@ void add_hysteresis(const FitData& data, const ModeParameters& parameters, const
   take_off();
   const NormalEquations once = Likelihood(less, parameters, outside).evaluate(x, true);
   take_off();
-  const double twice = Likelihood(less, parameters, outside).evaluate(x, false).chi_square;
+  const double twice = Likelihood(less, parameters, outside).evaluate(x, false).sum_of_squares;
   // Of residuals r = model - h and a change d of the model: J^T W d, d^T W d, r^T W d.
   const Eigen::VectorXd cross = once.gradient - normal.gradient;
-  const double square = (twice + normal.chi_square) / 2 - once.chi_square,
-               along = (once.chi_square - normal.chi_square - square) / 2;
+  const double square = (twice + normal.sum_of_squares) / 2 - once.sum_of_squares,
+               along = (once.sum_of_squares - normal.sum_of_squares - square) / 2;
   const Eigen::VectorXd adapted = inverse_normal_matrix(normal) * cross;
   const double slope = along - adapted.dot(normal.gradient), curvature = square - adapted.dot(cross);
   if (!(curvature > 0) || slope * slope / curvature < chance_gain(1)) return;
