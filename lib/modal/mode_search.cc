@@ -12,6 +12,7 @@ namespace stablecut::modal {
 namespace {
 
 // Of refinements between changes of the weights, of the last ones on the way, and of the final one.
+constexpr int kSplitsAndFits = 12;
 constexpr Effort kBetween{60, 0.01}, kLast{240, 1e-5}, kFinal{960, 1e-5};
 constexpr int kParts = 4;    // of a refinement that may be given up
 constexpr int kRescues = 3;  // modes that may be added before the noise is given up
@@ -77,6 +78,31 @@ double correction_of(const GroupFit& fit) {
   return values / std::max(values - parameters, 1.0);
 }
 
+CurveVariances own_parts(const GroupFit& fit) {
+  CurveVariances own = fit.variance;
+  for (std::size_t c = 0; c < fit.shared.size(); ++c)
+    if (fit.shared[c].size() > 0) own[c] -= fit.shared[c];
+  return own;
+}
+
+// Where curves share nearly all of their noise, the first modes, of independent errors, are off by more than
+// what curves have of their own: split and fit again until that no longer falls.
+GroupFit with_settled_split(GroupFit fit, bool local_allowed) {
+  for (int i = 0; i < kSplitsAndFits && tell_otherwise(fit.shared, {}); ++i) {
+    const CurveVariances before = own_parts(fit);
+    const double correction = correction_of(fit);
+    GroupFit next = fit;
+    if (next.noise_estimated)
+      next.variance = residual_as_noise(fit.data, fit.modes(), correction, local_allowed).variance;
+    next.shared = shared_noise(fit.data, fit.modes(), correction, local_allowed, next.variance);
+    if (!differ_much(own_parts(next), before)) break;
+    fit = std::move(next);
+    fit.weigh(fit.regime);
+    fit.refined = fit.refine(fit.modes(), kBetween);
+  }
+  return fit;
+}
+
 // Noise once the modes are known, from all of the residual: the fewer numbers describe it, the surer the
 // weights. What smooth shapes do not describe may be modes; when these have been looked for, it is noise of
 // that place.
@@ -93,7 +119,7 @@ GroupFit with_settled_noise(GroupFit fit, const SelectionOptions& options) {
     if (changed) select_modes(fit, options);
     if (!now.is_local) break;
   }
-  return fit;
+  return with_settled_split(std::move(fit), true);
 }
 
 // A given variance says nothing of what curves share: where they do, the residual tells both parts.
@@ -106,7 +132,7 @@ GroupFit with_shared_noise(GroupFit fit, const SelectionOptions& options) {
     fit.refined = fit.refine(fit.modes(), kBetween);
     if (!known) select_modes(fit, options);
   }
-  return fit;
+  return with_settled_split(std::move(fit), true);
 }
 
 // Nearly no noise: the same again with all that the numbers hold, unless the model cannot follow that far.
