@@ -1,12 +1,18 @@
 #include "critical_modes.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
 
+#include "base/error.h"
 #include "base/number_text.h"
 #include "base/units.h"
+#include "document/kinds/modal_table_json.h"
+#include "document/text/data_error.h"
 
 namespace stablecut {
 namespace {
@@ -31,6 +37,19 @@ std::optional<std::string> doubt(const dynamics::ModalModel& table, std::size_t 
   return std::nullopt;
 }
 
+// Indices from 0 as --modes takes them: 2-7,9.
+std::string mode_list(const std::vector<std::size_t>& modes) {
+  std::string text;
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    std::size_t last = i;
+    while (last + 1 < modes.size() && modes[last + 1] == modes[last] + 1) ++last;
+    text += (text.empty() ? "" : ",") + std::to_string(modes[i] + 1);
+    if (last > i) text += "-" + std::to_string(modes[last] + 1);
+    i = last;
+  }
+  return text;
+}
+
 }  // namespace
 
 std::vector<std::string> doubtful_critical_modes(const milling::StabilityChart& chart,
@@ -53,6 +72,38 @@ std::vector<std::string> doubtful_critical_modes(const milling::StabilityChart& 
                     number_text(mm_from_metres(depth_m), 3) + " mm, but " + *text);
   }
   return lines;
+}
+
+std::vector<std::size_t> modes_without_doubt(const dynamics::ModalModel& table,
+                                             const std::vector<std::size_t>& modes) {
+  std::vector<std::size_t> sure;
+  std::copy_if(modes.begin(), modes.end(), std::back_inserter(sure),
+               [&](std::size_t k) { return !doubt(table, k); });
+  return sure;
+}
+
+std::optional<std::string> limit_of_alone(const dynamics::ModalModel& table, const document::Source& source,
+                                          const std::vector<std::size_t>& modes,
+                                          const milling::Cutter& cutter, const ChartAxes& axes,
+                                          const milling::StabilityScheme& scheme, int threads) {
+  double least = std::numeric_limits<double>::infinity();
+  try {
+    const milling::TipStructure structure =
+        document::tip_structure_of(dynamics::chosen_modes(table, modes), source, cutter.is_axial());
+    const milling::StabilityChart chart = milling::stability_chart(structure, cutter, axes.revolutions_per_s,
+                                                                   axes.depths_m, scheme, false, threads);
+    for (const auto& crossings : chart.crossings) {
+      const milling::StabilityCrossing* limit = milling::limit_of(crossings);
+      if (limit != nullptr) least = std::min(least, limit->depth_m);
+    }
+  } catch (const document::DataError&) {  // these modes move nothing that cuts
+    return std::nullopt;
+  } catch (const NoAnswer&) {
+    return std::nullopt;
+  }
+  return "the other modes alone (--modes " + mode_list(modes) + ") limit the depth " +
+         (std::isfinite(least) ? "down to " + number_text(mm_from_metres(least), 3) + " mm"
+                               : "nowhere in the chart");
 }
 
 }  // namespace stablecut

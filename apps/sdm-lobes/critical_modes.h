@@ -1,11 +1,13 @@
 // Modes that decide the limits although the measurement hardly knows them.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "dynamics/modal_model.h"
 #include "milling/lobes.h"
+#include "options.h"
 
 namespace stablecut {
 
@@ -13,5 +15,16 @@ namespace stablecut {
 /// measured band, next to no damping, or numbers less sure than the damping. One line for each.
 std::vector<std::string> doubtful_critical_modes(const milling::StabilityChart& chart,
                                                  const std::vector<dynamics::ModalModel>& tables);
+
+/// Those of the modes, by their indices in the table, that none of this can be said of.
+std::vector<std::size_t> modes_without_doubt(const dynamics::ModalModel& table,
+                                             const std::vector<std::size_t>& modes);
+
+/// What these modes of the table alone would limit the depth to, and the option for it: a line. Nothing where
+/// they have no answer.
+std::optional<std::string> limit_of_alone(const dynamics::ModalModel& table, const document::Source& source,
+                                          const std::vector<std::size_t>& modes,
+                                          const milling::Cutter& cutter, const ChartAxes& axes,
+                                          const milling::StabilityScheme& scheme, int threads);
 
 }  // namespace stablecut

@@ -136,7 +136,13 @@ class SdmLobes : public cli::Tool {
       lobes.what_to_run =
           milling::what_to_run(structures, cutter, written_limits(lobes, axes), request, threads());
     for (const std::string& line : convergence_warnings(lobes, advice(Remedy::kModes))) warn(line);
-    for (const std::string& line : doubtful_critical_modes(lobes.chart, models)) warn(line);
+    const std::vector<std::string> doubtful = doubtful_critical_modes(lobes.chart, models);
+    for (const std::string& line : doubtful) warn(line);
+    if (!doubtful.empty() && models.size() == 1 && !parts_.used()) {
+      const auto sure = modes_without_doubt(all_modes, modes_.chosen(all_modes, table.source.name));
+      const auto line = limit_of_alone(all_modes, table.source, sure, cutter, axes, lobes.scheme, threads());
+      if (line) warn(*line);
+    }
     write_document(main_output(), document::lobes_to_json(lobes));
   }
 

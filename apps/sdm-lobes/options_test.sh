@@ -223,6 +223,10 @@ doubt() { # TEXT FILTER: the table changed by a jq filter
 }
 doubt 'lies outside the measured band' '.modes[].out_of_band = true'
 doubt 'has a damping ratio of 1e-06, as no structure has' '.modes[9].damping_ratio = 1e-6'
+check "the depth without it: said, not $(cat err)" grep -Eq '^sdm-lobes: warning: the other modes alone \(--modes 1-9,11-15\) limit the depth down to [0-9.]+ mm$' err
+said=$(sed -n 's/.* alone .* down to \(.*\) mm$/\1/p' err)
+sdm-lobes doubtful.json --modes 1-9,11-15 --cut "$cut" "${small[@]}" --limit-only -o out.json
+check_jq "it is what --modes gives" out.json '([.limit[].depth_mm | numbers] | min) / $said | . > 0.99 and . < 1.01' --argjson said "$said"
 sdm-lobes "$table" --cut "$cut" "${small[@]}" --limit-only -o out.json 2>err
 check "nothing is said of the others, not $(cat err)" test ! -s err
 
