@@ -25,7 +25,8 @@ check "the library's licence" grep -q 'Permission is hereby granted' all.html
 /usr/bin/python3 - all.html >charts.json <<'PYTHON'
 import html, json, re, sys
 page = open(sys.argv[1]).read()
-charts = json.loads(re.search(r'<script type="application/json" id="charts">(.*?)</script>', page, re.S).group(1))
+data = json.loads(re.search(r'<script type="application/json" id="charts">(.*?)</script>', page, re.S).group(1))
+charts = [chart | {"curves": [curve | {"x": data["abscissas"][curve["x"]]} for curve in chart["curves"]]} for chart in data["charts"]]
 headings = [html.unescape(text) for text in re.findall("<h2>(.*?)</h2>", page)]
 json.dump({"charts": charts, "headings": headings, "canvases": len(re.findall("<canvas ", page))}, sys.stdout)
 PYTHON

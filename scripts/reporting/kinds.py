@@ -174,8 +174,8 @@ def frf(documents):
                 continue
             frequencies = document.content["frequency_hz"]
             style = {"width": 3, "colour": "#9fb1c1"} if i == 0 and len(documents) > 1 else {"width": 1.5}
-            upper.append(curve(document.label, frequencies, [abs(v) or None for v in values], i, **style))
-            lower.append(curve(document.label, frequencies, [math.degrees(math.atan2(v.imag, v.real)) for v in values], i, **style))
+            upper.append(curve(document.label, frequencies, [abs(v) or None for v in values], i, digits=5, **style))
+            lower.append(curve(document.label, frequencies, [math.degrees(math.atan2(v.imag, v.real)) for v in values], i, digits=4, wrap=180, **style))
         frequency = axis("frequency, Hz", charts.wide(documents[0].content["frequency_hz"]),
                          *_span([f for document in documents for f in _span(document.content["frequency_hz"])]))
         name = f"H {place[0]}{place[1]}" + (f" at {place[2]:g} and {place[3]:g} mm from the tip" if any(place[2:]) else "")
