@@ -123,6 +123,11 @@ jq 'del(.what_to_run, .points, .crossings) | .limit |= [.[0] | {speed_rpm: 5000,
   lobes.json >between.json
 "$scripts/plot-lobes" between.json -o between.svg
 check "it is drawn" test "$(grep -c '<text>limit<' between.svg)" -eq 1 -a "$(grep -c 'stable over the whole' between.svg)" -eq 0
+jq '.limit[] |= del(.mode, .lobe)' lobes.json >no-modes.json
+"$scripts/plot-lobes" no-modes.json -o no-modes.svg
+check "a chart that does not say its modes" grep -q '>mode unknown<' no-modes.svg
+jq 'del(.spectral_radius)' lobes.json | "$scripts/plot-lobes" -o no-grid.svg
+check "without a grid no scale of its colours" test "$(grep -c 'spectral radius of a tooth' no-grid.svg)" -eq 0 -a "$(grep -c 'axial depth' no-grid.svg)" -ge 1
 # Numbers of modes in a part of the band, and those of the table.
 "$scripts/plot-stabilization" stabilization.json --range 40:80 -o zoom.svg
 check "modes with frequency and damping" grep -qE '>4: 4[34]\.[0-9]* Hz, [0-9.]+ %<' zoom.svg

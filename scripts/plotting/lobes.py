@@ -42,6 +42,9 @@ def lobes(entries):
 
 
 def mode_name(entry):
+    """Empty where nothing says which mode it is."""
+    if entry.get("mode") is None:
+        return ""
     return (f"table {entry['table']}, " if entry.get("table") is not None else "") + f"mode {entry['mode']}"
 
 
