@@ -13,7 +13,10 @@ def section(title, facts=(), chart_list=(), tables=()):
 
 
 def table(title, head, rows):
-    return {"title": title, "head": list(head), "rows": [[short(value, 5) for value in row] for row in rows]}
+    """Without the columns that say nothing in any row."""
+    rows = [[short(value, 5) for value in row] for row in rows]
+    said = [i for i in range(len(head)) if not rows or any(row[i] is not None for row in rows)]
+    return {"title": title, "head": [head[i] for i in said], "rows": [[row[i] for i in said] for row in rows]}
 
 
 def _cut_words(cut):
