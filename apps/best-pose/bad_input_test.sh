@@ -9,6 +9,8 @@ stiffness_with() {
   jq "$1" k2d.json >changed.json
   refused 65 "^best-pose: changed.json: $2" "${search[@]}" changed.json -o result.json
 }
+refused 64 '^best-pose: --tool-point: expected lengths in mm up to 1e6' "${search[@]}" --tool-point 0,0,1e7 k2d.json
+refused 64 '^best-pose: --tool-point: 1,2: expected' "${search[@]}" --tool-point 1,2 k2d.json
 stiffness_with '.stiffness_n_m_per_rad = [1, 2]' '/stiffness_n_m_per_rad: a list of 2: expected 6'
 stiffness_with '.stiffness_n_m_per_rad[2] = 0' '/stiffness_n_m_per_rad/2: 0: expected a stiffness above 0'
 stiffness_with '.stiffness_n_m_per_rad[2] = "x"' '/stiffness_n_m_per_rad/2: "x": expected'

@@ -27,6 +27,8 @@ namespace {
 
 constexpr int kDefaultAlternatives = 5;
 
+constexpr double kFarthestToolMm = 1e6;  // as in a robot document
+
 class BestPose : public cli::Tool {
  public:
   BestPose()
@@ -41,6 +43,8 @@ class BestPose : public cli::Tool {
     const auto any = [](double) { return true; };
     cli::begin_group(app, "Input");
     add_file_option(app, "--robot", robot_path_, "Robot document: kinematics, flange, tool (required)");
+    cli::add_vector_option(app, "--tool-point", tool_point_mm_,
+                           "Tool point in the flange frame, mm (default: the robot's tool)");
     cli::begin_group(app, "Search");
     cli::add_number_option(app, "--height", where_.height_mm, "The plane z = HEIGHT, mm, base frame",
                            "a number", any);
@@ -100,6 +104,12 @@ class BestPose : public cli::Tool {
     if (!along_.given()) document.plane = search_plane(where_);
     const document::Input robot_input = read_input(robot_path_, cli::InputForm::kJson);
     robot::Robot robot = document::robot_from_json(robot_input.document, robot_input.source);
+    if (tool_point_mm_) {
+      const Eigen::Vector3d point_mm(tool_point_mm_->data());
+      cli::refuse_if(point_mm.cwiseAbs().maxCoeff() > kFarthestToolMm,
+                     "--tool-point: expected lengths in mm up to 1e6");
+      robot.tool.translation() = point_mm * 1e-3;
+    }
     apply(keep_out_, robot);
     const document::Input input = read_main_input(cli::InputForm::kJson);
     const robot::JointStiffness joints =
@@ -227,6 +237,7 @@ class BestPose : public cli::Tool {
   LoadOptions load_;
   CutOptions cut_;
   KeepOutOptions keep_out_;
+  std::optional<std::array<double, 3>> tool_point_mm_;
   std::optional<int> alternatives_;
   std::vector<AssumedStiffness> assumed_;
 };

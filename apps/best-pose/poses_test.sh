@@ -45,6 +45,10 @@ check_jq "and its mirror image" best.json '[.families[].kind] | index("equal") !
 optimum "the same on a coarse grid" 'near($b.score; 117.5)' --height 1600 --index deflection --force 400,0,-400 --limit-margin 0 --x=-2000:2500:4 --y=-2000:2000:3
 optimum "a force that turns with the tool" 'near($b.score; $b.deflection_um)' --height 1600 --index deflection --force 300,0,-300 --force-frame tool
 optimum "a point: the redundancy is all that is left" '($b.tcp_mm | map(round)) == [1500, 200, 1600]' --height 1600 --x 1500:1500:1 --y 200:200:1
+jq '.tool.translation_mm = [10, 0, 310]' "$robot" >long.json
+best-pose --robot long.json --quiet --no-provenance --height 1600 --index weakest k2d.json -o long-document.json
+run --no-provenance --height 1600 --index weakest --tool-point 10,0,310 >long-option.json
+check "a tool by option" cmp -s long-document.json long-option.json
 optimum "a wall: a vertical plane, tool along x" '($b.tcp_mm[0] - 2000 | fabs) < 1e-6 and .plane.origin_mm == [2000, 0, 1500]' --plane-origin 2000,0,1500 --plane-x 0,1,0 --plane-y 0,0,1 --tool-axis 1,0,0
 
 # The sweep that cannot matter.

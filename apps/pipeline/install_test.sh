@@ -19,7 +19,8 @@ fi
 if command -v make >/dev/null; then
   check "the studies find their tools and data" installed make -C "$share/scripts/studies" OUT="$PWD/studies" -n report >/dev/null
 fi
-check "every tool's page in the manual" test "$(cd "$prefix/share/man/man1" && echo *.1)" = "$(cd "$prefix/bin" && for tool in *; do [ -L "$tool" ] || echo "$tool.1"; done | xargs)"
+check "every command's page in the manual" test "$(cd "$prefix/share/man/man1" && echo *.1)" = "$(cd "$prefix/bin" && for name in *; do echo "$name.1"; done | xargs)"
+check "of a script what its help says" grep -q '^Usage: plot\\-lobes ' "$prefix/share/man/man1/plot-lobes.1"
 check "and of the whole" test -s "$prefix/share/man/man7/stablecut.7" -a -s "$prefix/share/man/man5/stablecut.5"
 for tool in "$prefix"/bin/*; do
   [ -L "$tool" ] || { name=$(basename "$tool")

@@ -30,11 +30,11 @@ class Limit(unittest.TestCase):
         limits = [{"speed_rpm": rpm, "depth_mm": 1, "mode": mode, "table": 2, "lobe": 0} for rpm, mode in ((2, 15), (3, 4))]
         self.assertEqual(lobes.modes([stable, *limits]), ["table 2, mode 4", "table 2, mode 15"])
 
-    def test_each_stretch_of_a_lobe_is_one(self):
+    def test_each_stretch_with_one_number_of_lobe_is_one(self):
         def entry(depth, lobe, mode):
             return {"depth_mm": depth, "lobe": lobe, "mode": mode, "kind": "hopf"}
-        entries = [entry(1, 2, 1), entry(1, 2, 1), entry(None, 2, 1), entry(1, 2, 1), entry(1, 2, 3), {"depth_mm": 1}]
-        self.assertEqual([(lobe, len(stretch)) for lobe, stretch in lobes.lobes(entries)], [(2, 2), (2, 1), (2, 1)])
+        entries = [entry(1, 2, 1), entry(1, 2, 1), entry(None, 2, 1), entry(1, 2, 1), entry(1, 2, 3), entry(1, 1, 3), {"depth_mm": 1}]
+        self.assertEqual([(lobe, len(stretch)) for lobe, stretch in lobes.lobes(entries)], [(2, 2), (2, 2), (1, 1)])
 
 
 class Grid(unittest.TestCase):

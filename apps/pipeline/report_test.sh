@@ -25,7 +25,8 @@ check "the library's licence" grep -q 'Permission is hereby granted' all.html
 /usr/bin/python3 - all.html >charts.json <<'PYTHON'
 import html, json, re, sys
 page = open(sys.argv[1]).read()
-charts = json.loads(re.search(r'<script type="application/json" id="charts">(.*?)</script>', page, re.S).group(1))
+data = json.loads(re.search(r'<script type="application/json" id="charts">(.*?)</script>', page, re.S).group(1))
+charts = [chart | {"curves": [curve | {"x": data["abscissas"][curve["x"]]} for curve in chart["curves"]]} for chart in data["charts"]]
 headings = [html.unescape(text) for text in re.findall("<h2>(.*?)</h2>", page)]
 json.dump({"charts": charts, "headings": headings, "canvases": len(re.findall("<canvas ", page))}, sys.stdout)
 PYTHON
@@ -42,6 +43,8 @@ check_jq "the fit over the measurement" charts.json '[.charts[] | select(.title 
 check "the tree of what came from what" grep -q 'fit-modes .*thesis-table-6-2.json' all.html
 check "and where it stands in the page" grep -q 'in this page: tap.json' all.html
 check "an interval of a joint" grep -q '95 % from' all.html
+echo '{"format": "stablecut/joint-stiffness/1", "stiffness_n_m_per_rad": [7e6, 4e6, 3e6, 2e6, 1e6, 6e5]}' | "$report" - -o bare.html
+check "no column for what is not known" test "$(grep -c '95 % from' bare.html)" -eq 0 -a "$(grep -c '<th>stiffness</th>' bare.html)" -eq 1
 
 # 200 x 100 points, the size of a study's chart.
 sdm-lobes "$data/thesis-table-6-2.json" --cut "$data/thesis-cut.json" --quiet | "$report" - -o large.html

@@ -21,6 +21,15 @@ check_jq "slopes, reciprocal" slopes.json '(.h | length) == 16 and ([.h[] | sele
 jq '.joint = {x: "rigid", y: .joint} | .holder = {x: .holder, y: (.holder | .end = "free")}' "$assembly" | rcsa-couple -o apart.json
 check_jq "x and y apart" apart.json '.h[0].re == $rigid[0].h[0].re and .h[3].re != $rigid[0].h[3].re' --slurpfile rigid rigid.json
 
+# Held farther out, by the segment at the joint; files of the assembly are found beside it.
+jq '.tool.segments = [.tool.segments[0] | .length_mm = 20, .length_mm = 110]' "$assembly" | rcsa-couple --no-provenance -o longer.json
+jq '.tool.segments = [.tool.segments[0] | .length_mm = 20, .length_mm = 90]' "$assembly" >two.json
+rcsa-couple --no-provenance --overhang 130 two.json -o overhang.json
+check "another overhang" cmp -s longer.json overhang.json
+check "of a measured holder" rcsa-couple --quiet --overhang 68 "$data/carbide-in-collet.json" -o collet.json
+refused 64 '^rcsa-couple: --overhang: 20: expected more than 20 mm, the tool without its segment at the joint' rcsa-couple --overhang 20 two.json
+refused 64 '^rcsa-couple: --overhang: -1: expected a number above 0' rcsa-couple --overhang -1 two.json
+
 # A wall: the clamped beam as a word, as an end, and as the limit of a stub that is nearly none.
 jq '.joint = "rigid" | .holder = "fixed"' "$assembly" | rcsa-couple --no-provenance -o wall.json
 jq '.joint = "rigid" | .holder = {end: "fixed"}' "$assembly" | rcsa-couple --no-provenance -o end.json

@@ -45,6 +45,11 @@ class RcsaCouple : public cli::Tool {
                              "Responses between all pairs of these places on the tool, in place of the tip; "
                              "distances from the tip in mm",
                              [this](const std::string& text) { add_positions(text, choice_.positions_m); });
+    cli::add_number_option(
+        app, "--overhang", overhang_mm_,
+        "Length of the tool from its tip to the joint, mm: its segment at the joint is made "
+        "longer or shorter (default: the assembly's)",
+        "a number above 0", [](double value) { return value > 0; });
     add_file_option(app, "--joint", joint_path_,
                     "Take the joint from a tool-joint document in place of the assembly");
     cli::begin_group(app, "Identification");
@@ -130,6 +135,7 @@ class RcsaCouple : public cli::Tool {
         input.document, input.source, frequency_hz, [&](const std::string& path) {
           return read_input((folder / path).string(), cli::InputForm::kByContent);
         });
+    if (overhang_mm_) set_overhang(*overhang_mm_, document.assembly.tool);
     warn_of(document.remarks);
     for (const auto& material : document.material_doubts) warn(words_of(material));
     for (const auto& size : document.size_doubts) warn(words_of(size));
@@ -219,6 +225,7 @@ class RcsaCouple : public cli::Tool {
   }
 
   receptance::ResponseChoice choice_;
+  std::optional<double> overhang_mm_;
   bool bounds_given_ = false, reading_assembly_ = false;
   std::optional<document::FrfUnit> unit_;
   std::string assembly_name_, joint_path_, identify_path_, fitted_path_, rigid_path_, objective_name_;

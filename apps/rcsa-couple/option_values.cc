@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "base/number_text.h"
 #include "base/range.h"
 #include "base/units.h"
 #include "cli/exit_status.h"
@@ -42,6 +43,16 @@ void set_bounds(const std::string& text, receptance::JointBounds& bounds) {
     bounds.least[at] = band->from;
     bounds.most[at] = band->to;
   }
+}
+
+void set_overhang(double overhang_mm, receptance::BeamChain& tool) {
+  receptance::BeamSegment& shank = tool.back();
+  const double before_m = receptance::length_of(tool) - shank.length_m;
+  const double left_m = metres_from_mm(overhang_mm) - before_m;
+  cli::refuse_if(left_m <= 0, "--overhang: " + number_text(overhang_mm) + ": expected more than " +
+                                  number_text(mm_from_metres(before_m)) +
+                                  " mm, the tool without its segment at the joint");
+  shank.length_m = left_m;
 }
 
 }  // namespace stablecut

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "receptance/held_tool.h"
 #include "receptance/joint_identification.h"
 
 namespace stablecut {
@@ -17,5 +18,9 @@ void add_positions(const std::string& text, std::vector<double>& positions_m);
 
 /// Sets the bounds of `--bounds NAME=LO:HI,...`. Throws WrongUsage.
 void set_bounds(const std::string& text, receptance::JointBounds& bounds);
+
+/// Gives a tool (tip to joint) another length by that of its segment at the joint. Throws WrongUsage where
+/// the segments before it are as long as that already.
+void set_overhang(double overhang_mm, receptance::BeamChain& tool);
 
 }  // namespace stablecut

@@ -74,22 +74,19 @@ std::vector<std::string> doubtful_critical_modes(const milling::StabilityChart& 
   return lines;
 }
 
-std::vector<std::size_t> modes_without_doubt(const dynamics::ModalModel& table,
-                                             const std::vector<std::size_t>& modes) {
+std::optional<std::string> limit_without_doubtful(const dynamics::ModalModel& table,
+                                                  const std::vector<std::size_t>& modes,
+                                                  const document::Source& source,
+                                                  const milling::Cutter& cutter, const ChartAxes& axes,
+                                                  const milling::StabilityScheme& scheme, int threads) {
   std::vector<std::size_t> sure;
   std::copy_if(modes.begin(), modes.end(), std::back_inserter(sure),
                [&](std::size_t k) { return !doubt(table, k); });
-  return sure;
-}
-
-std::optional<std::string> limit_of_alone(const dynamics::ModalModel& table, const document::Source& source,
-                                          const std::vector<std::size_t>& modes,
-                                          const milling::Cutter& cutter, const ChartAxes& axes,
-                                          const milling::StabilityScheme& scheme, int threads) {
+  if (sure.empty()) return std::nullopt;
   double least = std::numeric_limits<double>::infinity();
   try {
     const milling::TipStructure structure =
-        document::tip_structure_of(dynamics::chosen_modes(table, modes), source, cutter.is_axial());
+        document::tip_structure_of(dynamics::chosen_modes(table, sure), source, cutter.is_axial());
     const milling::StabilityChart chart = milling::stability_chart(structure, cutter, axes.revolutions_per_s,
                                                                    axes.depths_m, scheme, false, threads);
     for (const auto& crossings : chart.crossings) {
@@ -101,7 +98,7 @@ std::optional<std::string> limit_of_alone(const dynamics::ModalModel& table, con
   } catch (const NoAnswer&) {
     return std::nullopt;
   }
-  return "the other modes alone (--modes " + mode_list(modes) + ") limit the depth " +
+  return "the other modes alone (--modes " + mode_list(sure) + ") limit the depth " +
          (std::isfinite(least) ? "down to " + number_text(mm_from_metres(least), 3) + " mm"
                                : "nowhere in the chart");
 }

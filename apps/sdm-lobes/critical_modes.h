@@ -16,15 +16,12 @@ namespace stablecut {
 std::vector<std::string> doubtful_critical_modes(const milling::StabilityChart& chart,
                                                  const std::vector<dynamics::ModalModel>& tables);
 
-/// Those of the modes, by their indices in the table, that none of this can be said of.
-std::vector<std::size_t> modes_without_doubt(const dynamics::ModalModel& table,
-                                             const std::vector<std::size_t>& modes);
-
-/// What these modes of the table alone would limit the depth to, and the option for it: a line. Nothing where
-/// they have no answer.
-std::optional<std::string> limit_of_alone(const dynamics::ModalModel& table, const document::Source& source,
-                                          const std::vector<std::size_t>& modes,
-                                          const milling::Cutter& cutter, const ChartAxes& axes,
-                                          const milling::StabilityScheme& scheme, int threads);
+/// What those of the modes (indices in the table) that none of this can be said of would limit the depth to
+/// by themselves, and the option for it: a line. Nothing where they have no answer.
+std::optional<std::string> limit_without_doubtful(const dynamics::ModalModel& table,
+                                                  const std::vector<std::size_t>& modes,
+                                                  const document::Source& source,
+                                                  const milling::Cutter& cutter, const ChartAxes& axes,
+                                                  const milling::StabilityScheme& scheme, int threads);
 
 }  // namespace stablecut

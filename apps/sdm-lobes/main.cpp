@@ -92,7 +92,7 @@ class SdmLobes : public cli::Tool {
     cut_.check(method_, [this](const auto& text) { warn(text); });
     surface_.check(cut_.cut(), method_, !limit_only_ && !parts_.used(), 1 + more_tables_.size());
     const milling::RunRequest asked = run_.request(cut_.cut());
-    const document::Input table = read_main_input(cli::InputForm::kJson);
+    const document::Input table = modal_table(read_main_input(cli::InputForm::kByContent));
     const dynamics::ModalModel all_modes = document::modal_table_from_json(table.document, table.source);
     document::LobesDocument lobes;
     lobes.mode_labels = {modes_.find_labels(table)};
@@ -139,8 +139,8 @@ class SdmLobes : public cli::Tool {
     const std::vector<std::string> doubtful = doubtful_critical_modes(lobes.chart, models);
     for (const std::string& line : doubtful) warn(line);
     if (!doubtful.empty() && models.size() == 1 && !parts_.used()) {
-      const auto sure = modes_without_doubt(all_modes, modes_.chosen(all_modes, table.source.name));
-      const auto line = limit_of_alone(all_modes, table.source, sure, cutter, axes, lobes.scheme, threads());
+      const auto line = limit_without_doubtful(all_modes, modes_.chosen(all_modes, table.source.name),
+                                               table.source, cutter, axes, lobes.scheme, threads());
       if (line) warn(*line);
     }
     write_document(main_output(), document::lobes_to_json(lobes));
@@ -164,12 +164,21 @@ class SdmLobes : public cli::Tool {
                         [this](const auto& text) { warn(text); });
   }
 
+  // The measured file in the place of its modal table is a likely slip.
+  static document::Input modal_table(document::Input input) {
+    if (!input.document.is_null()) return input;
+    if (input.source.text.find_first_not_of(" \t\r\n") == std::string::npos)
+      throw document::DataError(input.source.name, "", "", "empty input: expected a modal table");
+    throw document::DataError(input.source.name, "", "",
+                              "not a modal table: expected what fit-modes makes of a tap");
+  }
+
   void read_more_tables(const std::string& first, std::vector<dynamics::ModalModel>& models,
                         std::vector<milling::TipStructure>& structures, document::LobesDocument& lobes) {
     if (more_tables_.empty()) return;
     lobes.tables = {first};
     for (const std::string& path : more_tables_) {
-      const document::Input table = read_input(path, cli::InputForm::kJson);
+      const document::Input table = modal_table(read_input(path, cli::InputForm::kByContent));
       models.push_back(document::modal_table_from_json(table.document, table.source));
       structures.push_back(structure_in(models.back(), table.source));
       lobes.tables.push_back(table.source.name);

@@ -18,6 +18,8 @@ namespace {
 // What one run computes at most: some hours, or a gigabyte.
 constexpr double kMostRadii = 1e7, kMostSpeeds = 1e6, kMostIntervals = 1e11;
 constexpr double kLeastRatio = 0.01;  // Kr/Kt of metals is 0.1 to 1
+// Kt of foam is above 5 N/mm2, of hardened steel in thin chips below 20 000.
+constexpr double kLeastKt = 5e6, kLargestKt = 5e10;  // N/m2
 
 bool is_positive(double value) { return value > 0; }
 bool is_not_negative(double value) { return value >= 0; }
@@ -84,6 +86,10 @@ void CutOptions::check(const std::string& method, const std::function<void(const
   cli::refuse_if(
       method == "sdm" && (!cutter.equal_pitch() || cutter.changes_with_depth() || cutter.damping_n_per_m > 0),
       "--method: sdm: expected straight teeth of equal pitch without corners and process damping");
+  if (cutter.kt_n_per_m2 < kLeastKt || cutter.kt_n_per_m2 > kLargestKt) {
+    warn(source_.name + ": /kt_n_per_mm2: " + number_text(n_per_mm2_from_n_per_m2(cutter.kt_n_per_m2)) +
+         ": of no material that is milled: expected N/mm2, which is MPa");
+  }
   if (cutter.kr_n_per_m2 > 0 && cutter.kr_n_per_m2 < kLeastRatio * cutter.kt_n_per_m2) {
     warn(source_.name + ": /kr_n_per_mm2: " + number_text(n_per_mm2_from_n_per_m2(cutter.kr_n_per_m2)) +
          ": next to nothing beside Kt: a ratio Kr/Kt has to be multiplied by Kt");

@@ -235,6 +235,13 @@ jq '.kr_n_per_mm2 = 0.3' "$cut" >ratio.json
 sdm-lobes "$table" --cut ratio.json "${small[@]}" --limit-only -o out.json 2>err
 check "a ratio Kr/Kt: said, not $(cat err)" grep -q '^sdm-lobes: warning: ratio.json: /kr_n_per_mm2: 0.3: .*a ratio Kr/Kt' err
 
+# In Pa, or in GPa.
+for kt in 6.89e8 0.689; do
+  jq --argjson kt "$kt" '.kt_n_per_mm2 = $kt | .kr_n_per_mm2 = 0.4 * $kt' "$cut" >unit.json
+  sdm-lobes "$table" --cut unit.json --speed 9000:9000:1 --depth 0:0.001:2 --limit-only -o out.json 2>err
+  check "Kt of $kt: said, not $(cat err)" grep -q '^sdm-lobes: warning: unit.json: /kt_n_per_mm2: .*: of no material that is milled' err
+done
+
 # A chart a hundred thousand times above its limits: no number of points gives the radii, but stable or not is sure.
 fit-modes --quiet "$data/taps/four.csv" -o soft.json
 sdm-lobes soft.json --cut "$cut" --depth 0:5:20 --speed 8000:16000:3 --best 0 -o far.json 2>err

@@ -1,6 +1,6 @@
 # What `cmake --install` puts where, and the Debian package that `scripts/package` makes of it:
 #   bin/                       the tools, the plot scripts, import-urdf, stablecut-report
-#   share/man/man1, man5, man7 their pages, one of all fields of documents, and one of the whole
+#   share/man/man1, man5, man7 their pages (of scripts their help), one of all fields of documents, and one of the whole
 #   share/bash-completion, share/zsh   completion, written by the tools from their own options
 #   share/stablecut/           scripts, schemas and example data in the layout of the checkout
 #   include/, lib/             the rooms as a library: find_package(stablecut), pkg-config stablecut
@@ -18,6 +18,7 @@ install(FILES ${PROJECT_SOURCE_DIR}/apps/stablecut.5 DESTINATION ${CMAKE_INSTALL
 install(FILES ${PROJECT_SOURCE_DIR}/apps/stablecut.7 DESTINATION ${CMAKE_INSTALL_MANDIR}/man7)
 file(GLOB commands CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scripts/plot-* ${PROJECT_SOURCE_DIR}/scripts/report
   ${PROJECT_SOURCE_DIR}/scripts/import-urdf)
+file(GLOB parts CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scripts/plotting/*.py ${PROJECT_SOURCE_DIR}/scripts/reporting/*.py)
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/links)
 foreach(command ${commands})
   cmake_path(GET command FILENAME name)
@@ -25,7 +26,13 @@ foreach(command ${commands})
   string(REGEX REPLACE "^report$" "stablecut-report" linked ${name})
   file(CREATE_LINK ../${share}/scripts/${name} ${PROJECT_BINARY_DIR}/links/${linked} SYMBOLIC)
   install(FILES ${PROJECT_BINARY_DIR}/links/${linked} TYPE BIN)
+  set(page ${PROJECT_BINARY_DIR}/links/${linked}.1)
+  add_custom_command(OUTPUT ${page} COMMAND ${PROJECT_SOURCE_DIR}/scripts/cmake/manual-page ${command} ${linked} > ${page}
+    DEPENDS ${command} ${parts} ${PROJECT_SOURCE_DIR}/scripts/cmake/manual-page)
+  list(APPEND pages ${page})
 endforeach()
+add_custom_target(script_pages ALL DEPENDS ${pages})
+install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 
 # The library. Its rooms are static, and need the packages that they use.
 set(rooms base numerics dynamics milling modal receptance robot taps document)

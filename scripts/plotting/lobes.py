@@ -36,13 +36,15 @@ def curve(entries, top):
 
 
 def lobes(entries):
-    """Stretches of the limit on one lobe: (lobe, entries)."""
-    stretches = itertools.groupby(entries, key=lambda entry: None if entry.get("depth_mm") is None or "lobe" not in entry
-                                  else (entry["lobe"], entry.get("mode"), entry.get("table")))
-    return [(key[0], list(stretch)) for key, stretch in stretches if key]
+    """Stretches of the limit with one number of lobe, whatever mode each of their lobes is of: (lobe, entries)."""
+    stretches = itertools.groupby(entries, key=lambda entry: None if entry.get("depth_mm") is None else entry.get("lobe"))
+    return [(lobe, list(stretch)) for lobe, stretch in stretches if lobe is not None]
 
 
 def mode_name(entry):
+    """Empty where nothing says which mode it is."""
+    if entry.get("mode") is None:
+        return ""
     return (f"table {entry['table']}, " if entry.get("table") is not None else "") + f"mode {entry['mode']}"
 
 

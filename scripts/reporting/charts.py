@@ -44,9 +44,9 @@ def axis(label, log=False, low=None, high=None):
     return found
 
 
-def curve(name, x, y, index=0, points=False, line=True, hover=None, **style):
-    """One curve; None in y is a gap."""
-    found = {"name": name, "x": shorts(x), "y": shorts(y), "colour": COLOURS[index % len(COLOURS)],
+def curve(name, x, y, index=0, points=False, line=True, hover=None, digits=6, **style):
+    """One curve; None in y is a gap. digits: of y."""
+    found = {"name": name, "x": shorts(x), "y": shorts(y, digits), "colour": COLOURS[index % len(COLOURS)],
              "dash": DASHES[(index // 2) % len(DASHES)], "shape": SHAPES[index % len(SHAPES)], "points": points, "line": line}
     if hover:
         found["hover"] = [[title, shorts(values)] for title, values in hover]

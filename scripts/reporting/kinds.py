@@ -13,7 +13,10 @@ def section(title, facts=(), chart_list=(), tables=()):
 
 
 def table(title, head, rows):
-    return {"title": title, "head": list(head), "rows": [[short(value, 5) for value in row] for row in rows]}
+    """Without the columns that say nothing in any row."""
+    rows = [[short(value, 5) for value in row] for row in rows]
+    said = [i for i in range(len(head)) if not rows or any(row[i] is not None for row in rows)]
+    return {"title": title, "head": [head[i] for i in said], "rows": [[row[i] for i in said] for row in rows]}
 
 
 def _cut_words(cut):
@@ -174,8 +177,8 @@ def frf(documents):
                 continue
             frequencies = document.content["frequency_hz"]
             style = {"width": 3, "colour": "#9fb1c1"} if i == 0 and len(documents) > 1 else {"width": 1.5}
-            upper.append(curve(document.label, frequencies, [abs(v) or None for v in values], i, **style))
-            lower.append(curve(document.label, frequencies, [math.degrees(math.atan2(v.imag, v.real)) for v in values], i, **style))
+            upper.append(curve(document.label, frequencies, [abs(v) or None for v in values], i, digits=5, **style))
+            lower.append(curve(document.label, frequencies, [math.degrees(math.atan2(v.imag, v.real)) for v in values], i, digits=4, wrap=180, **style))
         frequency = axis("frequency, Hz", charts.wide(documents[0].content["frequency_hz"]),
                          *_span([f for document in documents for f in _span(document.content["frequency_hz"])]))
         name = f"H {place[0]}{place[1]}" + (f" at {place[2]:g} and {place[3]:g} mm from the tip" if any(place[2:]) else "")

@@ -1,7 +1,8 @@
 // Draws the page's charts by Chart.js from the data that the page carries. Texts of documents only ever become text nodes.
 "use strict";
 (() => {
-  const charts = JSON.parse(document.getElementById("charts").textContent);
+  const {charts, abscissas} = JSON.parse(document.getElementById("charts").textContent);
+  charts.forEach((chart) => chart.curves.forEach((curve) => { curve.x = abscissas[curve.x]; }));
 
   const shown = (value) => {
     if (typeof value !== "number") return value === null || value === undefined ? "none" : String(value);
@@ -41,6 +42,8 @@
     borderColor: curve.colour, backgroundColor: curve.hollow ? "transparent" : curve.colour,
     borderWidth: curve.hollow ? 2 : curve.width || 1.5, borderDash: curve.line ? curve.dash : [],
     showLine: curve.line, spanGaps: false,
+    // A phase that goes out at the top and comes in at the bottom has no line between.
+    segment: curve.wrap ? {borderColor: ({p0, p1}) => Math.abs(p1.parsed.y - p0.parsed.y) > curve.wrap ? "transparent" : undefined} : undefined,
     pointStyle: curve.points ? curve.shape : "line", pointRadius: curve.points ? curve.radius || 3 : 0,
     pointHoverRadius: (curve.points ? curve.radius || 3 : 0) + 2, pointHitRadius: 4,
     clip: curve.points ? 12 : 0,

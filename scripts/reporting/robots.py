@@ -85,12 +85,18 @@ def pose_map(document, poses=(), paths=()):
     return section(f"Pose map: {document.label}", (), found)
 
 
+def _margin(one):
+    """To a billionth of a degree: at a limit it is 0, not what rounding leaves."""
+    margin = one.get("limit_margin_deg")
+    return None if margin is None else round(margin, 9)
+
+
 def pose(document, most_rows=60):
     content = document.content
     label, factor = _score(content["index"])
     best = [("best", content["best"])] if content.get("best") else []
     rows = [[name, *one["joints_deg"], *one["tcp_mm"], one["redundancy_deg"], None if one["score"] is None else one["score"] * factor,
-             None if one.get("score_std") is None else one["score_std"] * factor, one.get("limit_margin_deg")]
+             None if one.get("score_std") is None else one["score_std"] * factor, _margin(one)]
             for name, one in best + [(f"runner-up {i}", one) for i, one in enumerate(content.get("alternatives", []), 1)]
             + [(one.get("name") or f"pose {i}", one) for i, one in enumerate(content.get("evaluated", []), 1)]]
     joints = len(rows[0]) - 8 if rows else 6
@@ -101,8 +107,9 @@ def pose(document, most_rows=60):
         scores = [None if one["score"] is None else one["score"] * factor for one in evaluated]
         for first, second in ((0, 2), (0, 1)):
             places = [[one["tcp_mm"][axis_number] for one in evaluated] for axis_number in (first, second)]
-            if min(max(place) - min(place) for place in places) < 1:
-                continue  # a line
+            spans = [max(place) - min(place) for place in places]
+            if min(spans) < max(1, 0.1 * max(spans)):
+                continue  # nearly a line, which needs no picture
             clouds.append(chart("Tool points from the side" if second == 2 else "Tool points from above", axis(f"{'xyz'[first]}, mm (base frame)"),
                                 axis(f"{'xyz'[second]}, mm (base frame)"), [curve("poses", *places, 2, points=True, line=False,
                                 radius=1 if len(evaluated) > most_rows else 4, hover=[("pose", list(range(1, len(evaluated) + 1))), (label, scores)])], equal=True))

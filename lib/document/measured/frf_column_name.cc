@@ -34,12 +34,26 @@ std::optional<ColumnPart> part_named(const std::string& word) {
   return std::nullopt;
 }
 
-// A unit, known or not; neither a part nor directions, as in Re(Hxx) or H(x/y).
+// A direction by itself or of a force: x, fx. Nothing for other words.
+std::string direction_named(const std::string& word) {
+  const std::string letter = word.size() == 2 && word[0] == 'f' ? word.substr(1) : word;
+  return letter.size() == 1 && is_direction(letter[0]) ? letter : "";
+}
+
+// As in Re(X/FX).
+bool is_direction_pair(const std::string& low) {
+  const auto slash = low.find('/');
+  return slash != std::string::npos && !direction_named(low.substr(0, slash)).empty() &&
+         !direction_named(low.substr(slash + 1)).empty();
+}
+
+// A unit, known or not; neither a part nor directions, as in Re(Hxx) or H(x/fy).
 bool looks_like_unit(const std::string& text) {
   const std::string low = lower(text);
   for (const char* word : {"db", "deg", "degrees", "rad", "radians", "\xC2\xB0", "\xB0", "-"}) {
     if (low == word) return true;
   }
+  if (is_direction_pair(low)) return false;
   const bool quotient = low.find('/') != std::string::npos && std::any_of(low.begin(), low.end(), [](char c) {
                           return std::isalpha(static_cast<unsigned char>(c)) && !is_direction(c);
                         });
@@ -149,6 +163,7 @@ class NameReader {
       return;
     }
     if (word.size() == 3 && (word[0] == 'h' || word[0] == 'g')) word.erase(0, 1);  // Hxy, Gxy
+    if (const std::string direction = direction_named(word); !direction.empty()) word = direction;
     if (word.size() <= 2 && std::all_of(word.begin(), word.end(), is_direction)) directions_ += word;
   }
 

@@ -228,7 +228,8 @@ std::optional<bool> parts_at_end(const TableRow& row) {
 void refuse_column_count(const Source& source, const TableRow& row) {
   throw DataError(
       source.name, line_place(row.line), std::to_string(row.fields.size()) + " columns",
-      "expected 3 columns (Hz, real, imaginary), 9 (xx, xy, yx, yy), or a header that names them");
+      "expected 3 columns (Hz, real, imaginary), 9 (xx, xy, yx, yy), or a header that names them, as "
+      "f_hz,xx_re,xx_im,yy_re,yy_im");
 }
 
 ColumnPlan plan_columns(const Source& source, const std::vector<TableRow>& rows, std::size_t first,

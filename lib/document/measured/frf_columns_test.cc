@@ -117,6 +117,10 @@ TEST_CASE("magnitude and phase, coherence, several pairs") {
   CHECK(complaint("f,Re(Hxx),Im(Hxx),f,Re(Hyx),Im(Hyx)\n1,2,3,2,4,5\n") ==
         "f: line 2: 2: expected the frequency of column 1");
   CHECK(read("f,Re x/-y,Im x/-y\n1,2,3\n").find("x", "y")->h[0] == Complex(-2, -3));
+  const auto quotients = read("f,Real(X/FX),Imag(X/FX),Real(Y/FX),Imag(Y/FX)\n1,2,3,4,5\n");
+  CHECK(quotients.find("x", "x")->h[0] == Complex(2, 3));
+  CHECK(quotients.find("y", "x")->h[0] == Complex(4, 5));
+  CHECK(read("f,Re x/fy (um/N),Im x/fy (um/N)\n1,2,3\n").find("x", "y")->h[0] == Complex(2e-6, 3e-6));
   const auto nine = read("1,2,3,4,5,6,7,8,9\n");
   CHECK(nine.find("y", "x")->h[0] == Complex(6, 7));
 }
@@ -137,6 +141,7 @@ TEST_CASE("a bad line is named") {
   CHECK(complaint("-1,2,3\n1,2,3\n").find("f: line 1: -1: expected increasing") == 0);
   CHECK(complaint("1,2,3\n2,2\n") == "f: line 2: 2 columns: expected 3 as in the lines before");
   CHECK(complaint("1,2\n").find("f: line 1: 2 columns: expected 3 columns") == 0);
+  CHECK(complaint("1,2,3,4,5\n").ends_with("that names them, as f_hz,xx_re,xx_im,yy_re,yy_im"));
   CHECK(complaint("f,a,b\n").find("f: line 1: expected numbers below the header") == 0);
   CHECK(complaint("f,Re(Hxx),Im(Hxy)\n1,2,3\n")
             .find("f: line 1: xx: expected a column of the real and one of") == 0);

@@ -5,6 +5,7 @@ def radii: .[0] as $m | [range($m.y_mm | length) as $j | range($m.x_mm | length)
 def radius: .[0].best.tcp_mm | (.[0] * .[0] + .[1] * .[1]) | sqrt;
 {
   x_least: $ranges[0].x[0], x_most: $ranges[0].x[1], z_least: $ranges[0].z[0], z_most: $ranges[0].z[1],
+  workspace_x: $workspace[0].x, workspace_low: $workspace[0].z[0], workspace_high: $workspace[0].z[1],
   reach: $reach[0], ring_outer: ($map_1600 | radii | max), ring_inner: ($pose_1600 | radius),
   z_table_2: ([$table_2[0].evaluated[].tcp_mm[2]] | mean), z_table_3: ([$table_3[0].evaluated[].tcp_mm[2]] | mean),
   three_d_over_two_d: ([[$table_2_3d[0].evaluated[], $table_3_3d[0].evaluated[] | .deflection_um], [$table_2[0].evaluated[], $table_3[0].evaluated[] | .deflection_um]]
