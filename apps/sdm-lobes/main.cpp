@@ -164,15 +164,6 @@ class SdmLobes : public cli::Tool {
                         [this](const auto& text) { warn(text); });
   }
 
-  // The measured file in the place of its modal table is a likely slip.
-  static document::Input modal_table(document::Input input) {
-    if (!input.document.is_null()) return input;
-    if (input.source.text.find_first_not_of(" \t\r\n") == std::string::npos)
-      throw document::DataError(input.source.name, "", "", "empty input: expected a modal table");
-    throw document::DataError(input.source.name, "", "",
-                              "not a modal table: expected what fit-modes makes of a tap");
-  }
-
   void read_more_tables(const std::string& first, std::vector<dynamics::ModalModel>& models,
                         std::vector<milling::TipStructure>& structures, document::LobesDocument& lobes) {
     if (more_tables_.empty()) return;

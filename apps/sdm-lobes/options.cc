@@ -173,6 +173,14 @@ ChartAxes::ChartAxes(const document::LobesDocument& lobes) {
   for (const double mm : lobes.depth_mm) depths_m.push_back(metres_from_mm(mm));
 }
 
+document::Input modal_table(document::Input input) {
+  if (!input.document.is_null()) return input;
+  if (input.source.text.find_first_not_of(" \t\r\n") == std::string::npos)
+    throw document::DataError(input.source.name, "", "", "empty input: expected a modal table");
+  throw document::DataError(input.source.name, "", "",
+                            "not a modal table: expected what fit-modes makes of a tap");
+}
+
 milling::TipStructure structure_of(const dynamics::ModalModel& model, const document::Source& source,
                                    bool is_axial, const std::function<void(const std::string&)>& warn) {
   milling::TipStructure structure = document::tip_structure_of(model, source, is_axial);

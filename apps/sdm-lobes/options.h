@@ -77,6 +77,10 @@ struct ChartAxes {
   explicit ChartAxes(const document::LobesDocument& lobes);
 };
 
+/// The input, if it is JSON. The measured file in the place of its modal table is a likely slip: throws
+/// DataError.
+document::Input modal_table(document::Input input);
+
 /// The structure of a table's modes; with z where the cut acts along the axis. Throws DataError where it has
 /// none that can chatter; `warn` gets what is left out.
 milling::TipStructure structure_of(const dynamics::ModalModel& model, const document::Source& source,
