@@ -162,7 +162,7 @@ def inputs(folder):
     with open(odd, "w") as file:
         file.write("x")
     got, out, said = run([*SMALL, odd])
-    check("a name that is not UTF-8, in a message", got == 65 and "not JSON" in said[0] and "\x1b" not in said[0], said)
+    check("a name that is not UTF-8, in a message", got == 65 and "not a modal table" in said[0] and "\x1b" not in said[0], said)
     pipe = folder / "pipe"
     os.mkfifo(pipe)
     with subprocess.Popen(["bash", "-c", f"cat '{TABLE}' > '{pipe}'"]):
