@@ -21,7 +21,7 @@ import numpy as np
 NAMES = "xy"
 FAULTS = ["none", "drift", "hum", "delay", "late", "scale", "unit", "dead", "exchanged", "both-exchanged", "sign"]
 DOUBTS = re.compile(r"comes? [-0-9.e]+ ms late|times what fits|nothing but noise|look exchanged|other sign|positive on|"
-                    r"single lines|not reciprocal|velocity|dead")
+                    r"single lines|velocity|dead")
 
 
 def apart(rng, low, high, count, gap):
@@ -134,6 +134,12 @@ def named(fault, entry, mends, text):
     return re.search(patterns[fault], text) is not None
 
 
+def doubted(modes, text):
+    residue = np.einsum("ki,kj->kij", modes[1], modes[2])
+    reciprocal = np.allclose(residue, residue.transpose(0, 2, 1), atol=1e-9 * np.abs(residue).max())
+    return DOUBTS.search(text) is not None or (reciprocal and "not reciprocal" in text)
+
+
 class Campaign:
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
@@ -161,7 +167,7 @@ class Campaign:
             depth, more = self.least_depth(fitted, cut)
             text += more
             off = depth / self.least_depth(table(*modes), cut)[0] - 1
-        told = DOUBTS.search(text) is not None if fault == "none" else named(fault, entry, mends, text)
+        told = doubted(modes, text) if fault == "none" else named(fault, entry, mends, text)
         return {"seed": seed, "fault": fault, "what": f"{fault} {entry} {mends:.4g}", "told": told, "off": off,
                 "right": fitted is None or bool(text) or abs(off) <= 0.05, "text": text}
 

@@ -109,7 +109,7 @@ std::string words_of(const modal::TapFinding& finding, bool band_chosen) {
              " rises towards 0 Hz as no structure does (noise, or an imaginary part above 0): integrated "
              "drift of the sensor; " +
              (band_chosen ? "modes found there are not the structure's"
-                          : "left out of the fit (--band says otherwise)");
+                          : "left out of the fit, with any modes that it has (--band says otherwise)");
     case modal::TapFindingKind::kNoiseAtHighEnd:
       return "above " + number(finding.lo_hz) + " Hz " + name +
              " is within 10 dB of its noise: these lines add little but computing time (--band)";

@@ -31,7 +31,8 @@ TEST_CASE("what a tap shows about itself, in words") {
         "Hyx: nothing but noise: a dead channel, or uncoupled directions; left out of the fit");
   check({.kind = TapFindingKind::kDrift, .entry = kXx, .hi_hz = 65.4},
         "below 65.4 Hz Hxx rises towards 0 Hz as no structure does (noise, or an imaginary part above 0): "
-        "integrated drift of the sensor; left out of the fit (--band says otherwise)");
+        "integrated drift of the sensor; left out of the fit, with any modes that it has (--band says "
+        "otherwise)");
   check({.kind = TapFindingKind::kDrift, .entry = kXx, .hi_hz = 65.4},
         "below 65.4 Hz Hxx rises towards 0 Hz as no structure does (noise, or an imaginary part above 0): "
         "integrated drift of the sensor; modes found there are not the structure's",
