@@ -106,10 +106,14 @@ std::string words_of(const modal::TapFinding& finding, bool band_chosen) {
       return name + ": nothing but noise: a dead channel, or uncoupled directions; left out of the fit";
     case modal::TapFindingKind::kDrift:
       return "below " + number(finding.hi_hz) + " Hz " + name +
-             " rises towards 0 Hz as no structure does (noise, or an imaginary part above 0): integrated "
-             "drift of the sensor; " +
+             " rises towards 0 Hz with an imaginary part above 0, as no structure does: integrated drift "
+             "of the sensor; " +
              (band_chosen ? "modes found there are not the structure's"
                           : "left out of the fit, with any modes that it has (--band says otherwise)");
+    case modal::TapFindingKind::kNoiseAtLowEnd:
+      return "below " + number(finding.hi_hz) + " Hz " + name +
+             " is within 10 dB of its noise: modes there may be missing in the table, and then limit no "
+             "chart";
     case modal::TapFindingKind::kNoiseAtHighEnd:
       return "above " + number(finding.lo_hz) + " Hz " + name +
              " is within 10 dB of its noise: these lines add little but computing time (--band)";

@@ -30,13 +30,17 @@ TEST_CASE("what a tap shows about itself, in words") {
   check({.kind = TapFindingKind::kNothingButNoise, .entry = kYx},
         "Hyx: nothing but noise: a dead channel, or uncoupled directions; left out of the fit");
   check({.kind = TapFindingKind::kDrift, .entry = kXx, .hi_hz = 65.4},
-        "below 65.4 Hz Hxx rises towards 0 Hz as no structure does (noise, or an imaginary part above 0): "
+        "below 65.4 Hz Hxx rises towards 0 Hz with an imaginary part above 0, as no structure does: "
         "integrated drift of the sensor; left out of the fit, with any modes that it has (--band says "
         "otherwise)");
   check({.kind = TapFindingKind::kDrift, .entry = kXx, .hi_hz = 65.4},
-        "below 65.4 Hz Hxx rises towards 0 Hz as no structure does (noise, or an imaginary part above 0): "
+        "below 65.4 Hz Hxx rises towards 0 Hz with an imaginary part above 0, as no structure does: "
         "integrated drift of the sensor; modes found there are not the structure's",
         true);
+  check({.kind = TapFindingKind::kNoiseAtLowEnd, .entry = kXx, .hi_hz = 18.5},
+        "below 18.5 Hz Hxx is within 10 dB of its noise: modes there may be missing in the table, and then "
+        "limit "
+        "no chart");
   check({.kind = TapFindingKind::kNoiseAtHighEnd, .entry = kXx, .lo_hz = 810},
         "above 810 Hz Hxx is within 10 dB of its noise: these lines add little but computing time (--band)");
   check({.kind = TapFindingKind::kLikeVelocity, .entry = kXx},

@@ -166,12 +166,15 @@ ResidualNoise residual_noise(const Eigen::VectorXcd& residual, const Eigen::Vect
                              const NoiseShapes& floors) {
   const Eigen::VectorXd square = residual.cwiseAbs2();
   ResidualNoise noise;
-  noise.local = running_mean(square, kHalfWindow);
   for (const Eigen::VectorXd& floor : floors) {
     const Eigen::VectorXd smooth = likeliest_sum(square, floor.cwiseAbs2(), size.cwiseAbs2());
     if (noise.smooth.size() == 0 || log_likelihood(square, smooth) > log_likelihood(square, noise.smooth))
       noise.smooth = smooth;
   }
+  // Beside the smooth shape, which may be steep: at the first lines of an integrated acceleration a mean of
+  // squares would be that of the first alone.
+  const Eigen::VectorXd shape = noise.smooth.cwiseMax(kLeastVariance);
+  noise.local = shape.cwiseProduct(running_mean(square.cwiseQuotient(shape), kHalfWindow));
   // [Schwarz1978]: each window of the running mean counts as a parameter.
   const auto lines = static_cast<double>(square.size());
   const double windows = lines / static_cast<double>(2 * kHalfWindow + 1);

@@ -167,3 +167,24 @@ TEST_CASE("estimates from few averages are pooled") {
   // Many averages stand for themselves.
   CHECK(pooled_variance(estimates, 40, Eigen::VectorXd::Ones(lines), floors_of(lines)) == estimates);
 }
+
+TEST_CASE("the noise of the first lines of an integrated acceleration is not that of a mean of many") {
+  const Eigen::Index lines = 2000;
+  const Eigen::VectorXd omega = Eigen::VectorXd::LinSpaced(lines, 1, static_cast<double>(lines));
+  // 1 / omega^2, three times as much in the middle third, so that no smooth shape has it.
+  Eigen::VectorXd deviation = omega.cwiseAbs2().cwiseInverse();
+  deviation.segment(lines / 3, lines / 3) *= 3;
+  double mean = 0;
+  const int seeds = 40;
+  for (unsigned seed = 1; seed <= seeds; ++seed) {
+    std::mt19937_64 generator(seed);
+    Eigen::VectorXcd residual(lines);
+    for (Eigen::Index i = 0; i < lines; ++i)
+      residual[i] = deviation[i] * numerics::unit_complex_normal(generator);
+    const ResidualNoise noise = residual_noise(residual, Eigen::VectorXd::Ones(lines), floor_shapes(omega));
+    CHECK(noise.is_local);
+    mean += noise.local[0] / std::pow(deviation[0], 2) / seeds;
+  }
+  CHECK(mean > 0.7);
+  CHECK(mean < 1.4);
+}

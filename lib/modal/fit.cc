@@ -224,7 +224,8 @@ ModalFit assemble(const dynamics::FrequencyResponse& measured, const std::vector
     fit.converged = fit.converged && part.refined.converged;
     fit.limited_by_model = fit.limited_by_model || part.regime == Regime::kModelError;
     fit.inflation = std::max(fit.inflation, part.inflation());
-    const FittedTable table = fitted_table(part.data, part.modes(), part.model);
+    const FittedTable table =
+        fitted_table(part.data, part.modes(), part.model, part.regime != Regime::kModelError);
     fit.by_reciprocity = fit.by_reciprocity || table.by_reciprocity;
     add_to_table(table, groups[g].directions, part.inflation(), fit.model);
     fit.data.push_back(part.data);

@@ -3,10 +3,12 @@
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
 
 #include "base/error.h"
 #include "base/units.h"
 #include "modal/modal_fixtures_test.h"
+#include "numerics/random.h"
 
 using namespace stablecut;
 using namespace stablecut::modal;
@@ -367,4 +369,70 @@ TEST_CASE("cross entries alone share their modes") {
   const ModalFit fit = fit_modes(frf);
   CHECK(fit.model.modes.size() == 4);
   CHECK_FALSE(fit.limited_by_model);
+}
+
+namespace {
+
+// Two directions, 0.5 to 3000 Hz: robot and tool modes with that share of their damping hysteretic, and white
+// noise of the acceleration 50 dB below its mean: at 0.5 Hz it is some hundred times the receptance.
+dynamics::FrequencyResponse noisy_at_first_lines(double hysteretic, unsigned seed) {
+  struct Peak {
+    double hz, damping, stiffness, angle;
+  };
+  dynamics::FrequencyResponse measured;
+  measured.frequency_hz = Eigen::VectorXd::LinSpaced(6000, 0.5, 3000);
+  const Eigen::ArrayXd omega = kTwoPi * measured.frequency_hz.array();
+  std::mt19937_64 generator(seed);
+  for (const int response : {0, 1}) {
+    for (const int reference : {0, 1}) {
+      dynamics::FrequencyResponseEntry entry;
+      entry.response = response == 0 ? "x" : "y";
+      entry.reference = reference == 0 ? "x" : "y";
+      entry.h = Eigen::VectorXcd::Zero(6000);
+      for (const Peak& p : {Peak{32, 0.03, 2e6, 0.4},
+                            {60, 0.04, 4e6, 1.9},
+                            {370, 0.017, 2e7, 0.9},
+                            {1500, 0.026, 1e7, 2.5},
+                            {2186, 0.008, 6e7, 0.2}}) {
+        const double natural = kTwoPi * p.hz;
+        const auto along = [&](int direction) {
+          return direction == 0 ? std::cos(p.angle) : std::sin(p.angle);
+        };
+        for (Eigen::Index i = 0; i < 6000; ++i) {
+          const double rate = hysteretic * natural + (1 - hysteretic) * omega[i];
+          entry.h[i] += along(response) * along(reference) * natural * natural / p.stiffness /
+                        Complex(natural * natural - omega[i] * omega[i], 2 * p.damping * natural * rate);
+        }
+      }
+      const double floor = std::sqrt((entry.h.array().abs2() * omega.pow(4)).mean()) / 316;
+      for (Eigen::Index i = 0; i < 6000; ++i)
+        entry.h[i] += floor / (omega[i] * omega[i]) * numerics::unit_complex_normal(generator);
+      measured.entries.push_back(entry);
+    }
+  }
+  return measured;
+}
+
+}  // namespace
+
+TEST_CASE("noise at the first lines makes no modes") {
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    const ModalFit fit = fit_modes(noisy_at_first_lines(0, seed));
+    for (const dynamics::Mode& mode : fit.model.modes) {
+      // Softer than the robot by far: a chart would find nothing else.
+      const double natural = kTwoPi * mode.frequency_hz;
+      CHECK(2 * mode.residue().norm() / natural < 5e-6);
+    }
+  }
+}
+
+TEST_CASE("helpers without a resonance are no structure") {
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    const ModalFit fit = fit_modes(noisy_at_first_lines(1, seed));
+    for (const dynamics::Mode& mode : fit.model.modes) {
+      INFO(seed << ": " << mode.frequency_hz << " Hz, " << mode.damping_ratio);
+      CHECK((mode.out_of_band || mode.damping_ratio < 0.71));
+      CHECK(2 * mode.residue().norm() / (kTwoPi * mode.frequency_hz) < 5e-6);
+    }
+  }
 }

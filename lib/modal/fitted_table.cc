@@ -105,7 +105,8 @@ std::vector<Eigen::VectorXd> scale_shifts(const FitData& data, const ModeParamet
 
 }  // namespace
 
-FittedTable fitted_table(const FitData& data, const std::vector<dynamics::Mode>& modes, ModeModel model) {
+FittedTable fitted_table(const FitData& data, const std::vector<dynamics::Mode>& modes, ModeModel model,
+                         bool of_noise) {
   FittedTable table;
   if (modes.empty()) return table;
   const ModeParameters parameters(modes, data.dofs, model);
@@ -133,7 +134,7 @@ FittedTable fitted_table(const FitData& data, const std::vector<dynamics::Mode>&
     inverse.diagonal().segment<2>(parameters.pole_at(k)).setZero();
   table.covariance = slope * (inverse / 2) * slope.transpose();
   std::vector<Eigen::VectorXd> shifts = scale_shifts(data, parameters, fitted);
-  if (model == ModeModel::kNonsymmetric && data.independent_lines) {
+  if (of_noise && model == ModeModel::kNonsymmetric && data.independent_lines) {
     for (Eigen::VectorXd& error : shape_errors(data, parameters, x, normal))
       shifts.push_back(std::move(error));
   }

@@ -21,7 +21,9 @@ struct FittedTable {
 /// The covariance is the inverse of the Fisher information of the weighted curves, the Cramer-Rao bound
 /// [Cramer1946] [Rao1945], carried to the table's parameters to first order. For modes outside the band it
 /// includes their prior. Where the data's poles are fixed their variances are zero, and the others those
-/// given the poles.
-FittedTable fitted_table(const FitData& data, const std::vector<dynamics::Mode>& modes, ModeModel model);
+/// given the poles. `of_noise`: the weights are those of a noise, and the covariance gets the deviations of
+/// shapes that are no mode's; where the model is the limit, its inflation stands for these.
+FittedTable fitted_table(const FitData& data, const std::vector<dynamics::Mode>& modes, ModeModel model,
+                         bool of_noise = true);
 
 }  // namespace stablecut::modal

@@ -15,6 +15,8 @@ constexpr double kModelErrorFactor = 1.5;
 constexpr double kLargestInflation = 1.6, kInflationOfFewLines = 30;
 // Two poles nearer than this share of the smaller half width stand at one place.
 constexpr double kOnePole = 0.5;
+// 1 / sqrt 2: the receptance of a mode damped more has no maximum.
+constexpr double kNoResonance = 0.7071067811865476;
 constexpr double kMostLeft = 0.05;  // relative error that modes shall go below whatever the noise
 
 }  // namespace
@@ -86,6 +88,12 @@ bool GroupFit::is_crowded() const {
       return std::abs(other.pole() - pole) < kOnePole * std::min(-other.pole().real(), -pole.real());
     });
     return near > data.dofs;
+  });
+}
+
+bool GroupFit::has_helpers() const {
+  return std::any_of(modes().begin(), modes().end(), [&](const dynamics::Mode& mode) {
+    return mode.damping_ratio > kNoResonance && data.in_band(mode.pole());
   });
 }
 

@@ -55,6 +55,8 @@ struct GroupFit {
   bool residual_is_white() const;
   /// More modes stand at one pole than there are directions: they imitate something else.
   bool is_crowded() const;
+  /// Whether modes in the band have no resonance: they only help others to a shape that is none of a mode.
+  bool has_helpers() const;
 };
 
 /// |model - h| / |h|, root mean square over the curves that are not zero.

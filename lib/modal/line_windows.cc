@@ -38,7 +38,13 @@ WindowSummary summary_of(const LineSpan& window, const Eigen::VectorXd& hz, cons
     real.push_back(h[i].real() / modulus);
   }
   using numerics::median;
-  return {hz[window.first], hz[window.end - 1], median(size), median(noise), median(imaginary), median(real)};
+  return {hz[window.first],
+          hz[window.end - 1],
+          median(size),
+          median(noise),
+          median(imaginary),
+          median(real),
+          static_cast<double>(window.end - window.first)};
 }
 
 }  // namespace stablecut::modal

@@ -22,6 +22,7 @@ struct WindowSummary {
   double noise = 0;             ///< standard deviation of the noise over |H|
   double imaginary = 0;         ///< Im H / |H|
   double real = 0;              ///< Re H / |H|
+  double lines = 0;             ///< how many
 };
 /// `hz`, the entry's values `h` and the variance of its noise, each [lines].
 WindowSummary summary_of(const LineSpan& window, const Eigen::VectorXd& hz, const Eigen::VectorXcd& h,

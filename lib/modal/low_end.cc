@@ -14,12 +14,16 @@ constexpr double kDriftRise = 2, kDriftReach = 3, kDriftShare = 0.1;
 // A curve rises on the way to a resonance by kRising over the least before, and by so many deviations of the
 // noise; both are means over kMeanLines lines.
 constexpr double kRising = 1.3, kStandingOut = 4;
+constexpr double kMedianOverMean = 1.2533;  // sqrt(pi / 2), of that of a mean
 constexpr Eigen::Index kMeanLines = 3;
 
-// Noise, or no driving point's.
-bool tells_nothing(const Channel& channel, const WindowSummary& window) {
+// Gives energy, by more than the noise of the lines does by chance: the deviation of a median of lines with
+// that share of noise in each part, or of any phase. Noise alone only weighs little.
+bool gives_energy(const Channel& channel, const WindowSummary& window) {
+  if (!channel.driving_point) return false;
   const double positive = channel.swapped ? -window.imaginary : window.imaginary;
-  return window.noise > kNoiseShare || (channel.driving_point && positive > kPositiveShare);
+  const double deviation = kMedianOverMean * std::min(window.noise, 1.0) / std::sqrt(2 * window.lines);
+  return positive > kPositiveShare + kStandingOut * deviation;
 }
 
 }  // namespace
@@ -43,7 +47,7 @@ std::optional<double> ruined_up_to(const Eigen::VectorXd& hz, const Channel& cha
   const std::vector<WindowSummary>& windows = channel.windows;
   std::size_t ruined = 0;
   for (std::size_t i = 0; i < windows.size() && windows[i].hi_hz < risen_hz; ++i)
-    if (tells_nothing(channel, windows[i])) ruined = i + 1;
+    if (gives_energy(channel, windows[i])) ruined = i + 1;
   if (ruined == 0 || ruined == windows.size()) return std::nullopt;
   if (windows[0].size < kDriftRise * windows[ruined].size) return std::nullopt;
   // As an acceleration the drift is even: the most of the last octave, as drift and stiffness may cancel at

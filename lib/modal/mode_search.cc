@@ -173,7 +173,7 @@ GroupFit settled(GroupFit fit, const SelectionOptions& options) {
   if (floors_decide(fit.data, fit.regime)) return without_noise(fit, options);
   if (!fit.noise_estimated) return with_shared_noise(std::move(fit), options);
   GroupFit result = with_settled_noise(fit, options);
-  if (result.residual_is_white() && !result.is_crowded()) return result;
+  if (result.residual_is_white() && !result.is_crowded() && !result.has_helpers()) return result;
   return from_strongest(std::move(fit), options);
 }
 

@@ -14,13 +14,19 @@ constexpr double kCoarseFloor = 1e-4;
 constexpr double kFineFloor = 1e-7;
 constexpr double kRmsShare = 0.01;
 constexpr double kDecidingShare = 0.01;  // of all weights, above which the floors are said to decide
+constexpr double kClearOfNoise = 10;     // |H|^2 over the noise's variance
 constexpr double kLeast = 1e-300;        // of |h|^2, in a quotient
 constexpr double kOtherNoise = 4;        // factor between two variances from which on modes are weighed again
 
 double floor_share(Regime regime) { return regime == Regime::kNoiseless ? kFineFloor : kCoarseFloor; }
 
-double rms(const Curve& curve) {
-  return std::sqrt(curve.h.squaredNorm() / static_cast<double>(curve.h.size()));
+// Of the lines that are 10 dB clear of the noise, where there are any: at the first lines of an integrated
+// acceleration noise can be ten thousand times what a structure does.
+double rms(const Curve& curve, const Eigen::VectorXd& variance) {
+  const Eigen::ArrayXd square = curve.h.array().abs2();
+  const Eigen::ArrayXd clear = (square > kClearOfNoise * variance.array()).cast<double>();
+  const double lines = clear.sum();
+  return std::sqrt(lines > 0 ? (square * clear).sum() / lines : square.mean());
 }
 
 }  // namespace
@@ -28,14 +34,14 @@ double rms(const Curve& curve) {
 void weigh_curves(FitData& data, const CurveVariances& variance, const CurveVariances& shared,
                   Regime regime) {
   double largest_rms = 0;
-  for (const Curve& curve : data.curves) largest_rms = std::max(largest_rms, curve.h.norm());
-  largest_rms /= std::sqrt(static_cast<double>(data.lines()));
+  for (std::size_t e = 0; e < data.curves.size(); ++e)
+    largest_rms = std::max(largest_rms, rms(data.curves[e], variance[e]));
   const double of_value = floor_share(regime);
   const double of_rms = regime == Regime::kModelError ? kModelErrorFloor : kRmsShare * of_value;
   for (std::size_t e = 0; e < data.curves.size(); ++e) {
     Curve& curve = data.curves[e];
     // A curve of exact zeros is as sure as the largest one.
-    const double own_rms = rms(curve), size = own_rms > 0 ? own_rms : largest_rms;
+    const double own_rms = rms(curve, variance[e]), size = own_rms > 0 ? own_rms : largest_rms;
     curve.weight =
         (variance[e].array() + of_value * of_value * curve.h.array().abs2() + std::pow(of_rms * size, 2))
             .inverse();

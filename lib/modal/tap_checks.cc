@@ -90,6 +90,21 @@ double check_low_end(const Eigen::VectorXd& hz, const std::vector<Channel>& chan
   return usable_from;
 }
 
+// Modes there are not seen. Below an octave there is little to see.
+void check_low_noise(const std::vector<Channel>& channels, double usable_from_hz, Findings& findings) {
+  TapFinding worst{.kind = TapFindingKind::kNoiseAtLowEnd, .hi_hz = usable_from_hz};
+  for (const Channel& channel : channels) {
+    if (channel.dead || !channel.driving_point) continue;
+    std::size_t clear = 0;
+    while (clear < channel.windows.size() && channel.windows[clear].noise > kNoiseShare) ++clear;
+    if (clear == 0 || channel.windows[clear - 1].hi_hz < std::max(2 * channel.windows[0].lo_hz, worst.hi_hz))
+      continue;
+    worst.entry = channel.name();
+    worst.hi_hz = channel.windows[clear - 1].hi_hz;
+  }
+  if (!worst.entry.response.empty()) findings.push_back(worst);
+}
+
 void check_high_end(const std::vector<Channel>& channels, Findings& findings) {
   double from = 0;
   EntryName name;
@@ -340,6 +355,7 @@ TapReport check_tap(const dynamics::FrequencyResponse& receptance, bool zeros_ar
   check_spacing(hz, report.findings);
   check_dead_channels(receptance, channels, zeros_are_dead, report.findings);
   const double usable_from_hz = report.usable_from_hz = check_low_end(hz, channels, report.findings);
+  check_low_noise(channels, usable_from_hz, report.findings);
   check_high_end(channels, report.findings);
   check_signs(channels, usable_from_hz, report.findings);
   check_mirrors(hz, channels, usable_from_hz, report.findings);

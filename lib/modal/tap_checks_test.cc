@@ -111,14 +111,18 @@ TEST_CASE("drift that integration made at the low end, and noise at the high end
   // Noise of the acceleration.
   dynamics::FrequencyResponse noise = tap(usual_lines());
   std::mt19937_64 generator(5);
-  // It condemns the band in a driving point only.
+  // Noise only weighs little: it is said of driving points, and nothing is left out.
   for (const std::size_t entry : {1u, 0u}) {
     for (Eigen::Index i = 0; i < noise.frequency_hz.size(); ++i)
       noise.entries[entry].h[i] +=
           0.05 * numerics::unit_complex_normal(generator) / std::pow(kTwoPi * noise.frequency_hz[i], 2);
     const Kinds kinds = kinds_on(noise);
-    CHECK(std::count(kinds.begin(), kinds.end(), TapFindingKind::kDrift) == (entry == 0 ? 1 : 0));
+    CHECK(std::count(kinds.begin(), kinds.end(), TapFindingKind::kDrift) == 0);
+    CHECK(std::count(kinds.begin(), kinds.end(), TapFindingKind::kNoiseAtLowEnd) == (entry == 0 ? 1 : 0));
   }
+  const TapFinding low_noise = the(TapFindingKind::kNoiseAtLowEnd, noise);
+  CHECK(low_noise.entry == kXx);
+  CHECK(low_noise.hi_hz > 20);
   dynamics::FrequencyResponse high = tap(usual_lines());
   for (Eigen::Index i = 1600; i < high.frequency_hz.size(); ++i)
     high.entries[0].h[i] *= 1.0 + numerics::unit_complex_normal(generator);
