@@ -75,6 +75,7 @@ refused 64 '^best-pose: --height: expected either a height or --plane-origin' "$
 refused 64 '^best-pose: --plane-y: expected a direction square to --plane-x' best-pose --robot "$robot" --plane-origin 0,0,1 --plane-y 1,1,0 k2d.json
 refused 64 '^best-pose: --map: expected a search' best-pose --robot "$robot" --evaluate poses.json --map m.json k2d.json
 refused 64 '^best-pose: --assume: A1: expected JOINT=K' "${search[@]}" --assume A1 k2d.json
+refused 64 '^best-pose: --assume: A1=1e-320: expected JOINT=K' "${search[@]}" --assume A1=1e-320 k2d.json
 refused 64 '^best-pose: same.json: expected another output' "${search[@]}" --map same.json -o same.json k2d.json
 refused 64 'at most 4000000 points' "${search[@]}" --x 0:1:3000 --y 0:1:3000 k2d.json
 refused 74 '^best-pose: /dev/full: cannot be written' "${search[@]}" --map /dev/full k2d.json

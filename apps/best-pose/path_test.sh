@@ -99,6 +99,7 @@ refused 64 '^best-pose: --force-frame: feed: expected with --path only' run --he
 refused 64 '^best-pose: --path: expected without --height' run --path line.json --height 1600 k2d.json
 refused 64 '^best-pose: --joint-speed: 1,2: expected one number or six' run --path line.json --joint-speed 1,2 k2d.json
 refused 64 '^best-pose: --joint-speed: 0: expected speeds above 0' run --path line.json --joint-speed 0 k2d.json
+refused 64 '^best-pose: --joint-speed: 1e-323: expected speeds above 0' run --path line.json --joint-speed 1e-323 k2d.json
 refused 65 '^best-pose: line.txt: line 1: expected a speed' run --path line.txt k2d.json
 refused 65 '^best-pose: line.json: /frame: .*from one place only' run --path line.json "${frame[@]}" k2d.json
 refused 66 '^best-pose: none.json: cannot be read' run --path none.json k2d.json

@@ -51,6 +51,7 @@ std::optional<Range> parse_range(std::string_view text) {
   const auto count = parse_integer(parts[2]);
   if (!from || !to || !count || *count < 1 || *count > kMostInRange) return std::nullopt;
   if (*count == 1 ? *from != *to : !(*from < *to)) return std::nullopt;
+  if (!std::isfinite((*to - *from) * *count)) return std::nullopt;
   return Range{*from, *to, *count};
 }
 
