@@ -15,6 +15,8 @@
 namespace stablecut {
 namespace {
 
+constexpr double kMostPlacedPoints = 1e7;  // some hours where every place has to be searched
+
 Eigen::Isometry3d frame_of(const robot::Plane& plane) {
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
   frame.linear() << plane.x_axis, plane.y_axis, plane.x_axis.cross(plane.y_axis);
@@ -97,8 +99,11 @@ robot::PathTask path_task(robot::ToolPath path, const PathOptions& options, cons
 
 document::Json place_path(const robot::Robot& robot, robot::PathTask& task, Eigen::Isometry3d& workpiece,
                           const std::string& place, int threads, const Progress& progress) {
-  const robot::PlaceSearch search =
-      robot::search_places(robot, task, place_grid(place), workpiece, threads, progress);
+  const robot::PlaceGrid grid = place_grid(place);
+  cli::refuse_beyond(kMostPlacedPoints, "--path, --place",
+                     static_cast<double>(grid.size()) * static_cast<double>(task.path.size()),
+                     "points of the path times places (fewer places, or a path with every tenth point)");
+  const robot::PlaceSearch search = robot::search_places(robot, task, grid, workpiece, threads, progress);
   if (!search.best) throw NoAnswer(no_place_text(search));
   const robot::Placement& best = search.map[*search.best].at;
   task.path = robot::placed(task.path, best, workpiece);

@@ -46,6 +46,7 @@ class Search {
         limits_(model.step_limits()),
         whole_(model.whole_ladder(kLadderStep)),
         known_(model.size(), whole_.rungs) {
+    near_.base.resize(model_.size());
     if (mean_) mean_cost_ = typical_cost();
     set_stairs();
   }
@@ -170,12 +171,10 @@ class Search {
   // through.
   std::optional<Found> around(std::size_t first, int branch, const std::vector<double>& turn, double step,
                               int rungs) {
-    Ladder ladder;
-    ladder.base.assign(model_.size(), 0);
-    for (std::size_t i = 0; i < turn.size(); ++i) ladder.base[first + i] = turn[i] - rungs * step;
-    ladder.step = step;
-    ladder.rungs = 2 * rungs + 1;
-    ChainTask task = chain_task(ladder, limits_, 0);
+    for (std::size_t i = 0; i < turn.size(); ++i) near_.base[first + i] = turn[i] - rungs * step;
+    near_.step = step;
+    near_.rungs = 2 * rungs + 1;
+    ChainTask task = chain_task(near_, limits_, 0);
     task.progress = nullptr;
     task.branches = 1U << branch;
     return best_of(task, first, first + turn.size() - 1);
@@ -267,6 +266,7 @@ class Search {
   const std::vector<StepLimit> limits_;
   const Ladder whole_;
   RungCosts known_;  // of whole_
+  Ladder near_;      // about a known motion; its base holds at the points of that motion
   std::vector<StepLimit> stair_limits_;
   std::vector<std::size_t>
       stair_ends_;         // the points that the stairs begin with, but the first; empty: none needed
