@@ -11,6 +11,7 @@
 #include "path_words.h"
 #include "pose_values.h"
 #include "robot/path_offset.h"
+#include "words.h"
 
 namespace stablecut {
 namespace {
@@ -144,6 +145,12 @@ PathResult solve_path(const robot::Robot& robot, const robot::PathTask& task,
           robot::cancelling_offset(robot, inverse, document.reports[i], at, task.elasticity);
     }
   });
+  std::size_t untold = 0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const std::string text = untold_score_text(document.reports[i], *task.stiffness.index);
+    if (!text.empty() && ++untold == 1) result.untold = std::to_string(poses[i].first) + ": " + text;
+  }
+  if (untold > 0) result.untold = std::to_string(untold) + " points, the first " + result.untold;
   result.document = document::pose_path_to_json(document, robot);
   result.joints_csv = document::joint_angles_csv(search, robot);
   if (task.stiffness.cut) result.offsets_csv = document::offsets_csv(document, workpiece);
