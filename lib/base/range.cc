@@ -1,8 +1,9 @@
 #include "base/range.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <set>
+#include <utility>
 
 namespace stablecut {
 namespace {
@@ -78,7 +79,7 @@ std::optional<std::array<double, 3>> parse_vector(std::string_view text) {
 
 std::optional<std::vector<int>> parse_index_list(std::string_view text) {
   constexpr int kLargest = 1'000'000;
-  std::set<int> indices;
+  std::vector<std::pair<int, int>> intervals;
   for (const auto part : split(text, ',')) {
     const auto ends = split(part, '-');
     const auto first = parse_integer(ends.front());
@@ -86,9 +87,16 @@ std::optional<std::vector<int>> parse_index_list(std::string_view text) {
     if (ends.size() > 2 || !first || !last || *first < 1 || *last < *first || *last > kLargest) {
       return std::nullopt;
     }
-    for (int i = *first; i <= *last; ++i) indices.insert(i);
+    intervals.emplace_back(*first, *last);
   }
-  return std::vector<int>(indices.begin(), indices.end());
+  // Each index once, however often it is named.
+  std::sort(intervals.begin(), intervals.end());
+  std::vector<int> indices;
+  for (const auto& [first, last] : intervals) {
+    for (int i = std::max(first, indices.empty() ? 1 : indices.back() + 1); i <= last; ++i)
+      indices.push_back(i);
+  }
+  return indices;
 }
 
 }  // namespace stablecut
