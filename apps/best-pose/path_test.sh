@@ -119,3 +119,7 @@ run --path gaps.json --partial k2d.json -o gaps-path.json
 check_jq "every other point is a part of its own" gaps-path.json '[.parts[] | [.first, .last]] == [range(26) | [2 * ., 2 * .]] and (.obstacles | length) == 25'
 run --path line.json --joint-speed 0.001 --partial k2d.json -o fast-path.json
 check_jq "so is each where the joints are too slow" fast-path.json '(.parts | length) == 51 and (.obstacles | length) >= 1 and all(.obstacles[]; .constraint == "joint-speed")'
+
+# What stands in the way at the points themselves, in words.
+refused 1 '^best-pose: line.json: points 0 to 50: nearer to a singularity than the singularity margin, 0\.[0-9]*$' run --path line.json --singularity-margin 5 k2d.json
+refused 1 '^best-pose: line.json: points 0 to 50: limit of joint A[1-6]: only [0-9.]* degrees from it$' run --path line.json --limit-margin 60 k2d.json

@@ -142,3 +142,7 @@ check_jq "also from a column" huber.json '.outliers[0].name == "r5"'
 jq '.samples[].joints_deg |= map(. * 3.14159265 / 180)' loads.json >radians.json
 joint-stiffness --robot "$robot" radians.json -o found.json 2>.err
 check "angles in radians are noticed" grep -q 'radians.json: .*the joint angles look like radians: the largest is [0-9.]*, expected degrees' .err
+
+# Angles of a plan that look like radians.
+jq '.poses[].joints_deg |= map(. / 57.3)' poses.json | joint-stiffness --robot "$robot" --plan 6 -o plan.json 2>.err
+check "a plan of poses in radians is said" grep -Eq '^joint-stiffness: warning: <stdin>: the joint angles look like radians: the largest is [0-9.]*, expected degrees$' .err

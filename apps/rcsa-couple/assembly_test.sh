@@ -106,3 +106,7 @@ with '.frequency_hz = [1e80]' '/frequency_hz: 1e.80: the receptance is not finit
 with '.frequency_hz = [3, 2]' '/frequency_hz/1: 2: expected increasing'
 with '.format = "stablecut/frf/1"' '/format: .*expected "stablecut/assembly/1"'
 check "nothing was written" test ! -e result.json
+
+# A sensor sits on the tip, and other places know nothing of it.
+jq '.sensor_mass_g = 5' "$data/liu-assembly.json" >sensor.json
+refused 65 '^rcsa-couple: sensor.json: /sensor_mass_g: with --positions: expected no sensor on the tip$' rcsa-couple --positions 0,10 sensor.json
