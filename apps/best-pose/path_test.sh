@@ -123,3 +123,5 @@ check_jq "so is each where the joints are too slow" fast-path.json '(.parts | le
 # What stands in the way at the points themselves, in words.
 refused 1 '^best-pose: line.json: points 0 to 50: nearer to a singularity than the singularity margin, 0\.[0-9]*$' run --path line.json --singularity-margin 5 k2d.json
 refused 1 '^best-pose: line.json: points 0 to 50: limit of joint A[1-6]: only [0-9.]* degrees from it$' run --path line.json --limit-margin 60 k2d.json
+echo '2000000 0 0 0 0 1' >far.txt
+refused 65 "^best-pose: far.txt: line 1: expected a position of a robot's size$" run --path far.txt --path-speed 50 k2d.json

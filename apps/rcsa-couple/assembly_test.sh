@@ -110,3 +110,6 @@ check "nothing was written" test ! -e result.json
 # A sensor sits on the tip, and other places know nothing of it.
 jq '.sensor_mass_g = 5' "$data/liu-assembly.json" >sensor.json
 refused 65 '^rcsa-couple: sensor.json: /sensor_mass_g: with --positions: expected no sensor on the tip$' rcsa-couple --positions 0,10 sensor.json
+
+jq '.frequency_hz = {from: 1, to: 2, count: 1}' "$data/liu-assembly.json" >point.json
+refused 65 '^rcsa-couple: point.json: /frequency_hz/to: 2: expected the same number as from, since count is 1$' rcsa-couple point.json
