@@ -1,6 +1,7 @@
 #include "assumed_stiffness.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "base/error.h"
@@ -55,7 +56,7 @@ void assume(const AssumedStiffness& assumed, const robot::Robot& robot, const do
 AssumedStiffness parse_assumed(const std::string& text) {
   const auto equals = text.find('=');
   const auto value = equals == std::string::npos ? std::nullopt : parse_number(text.substr(equals + 1));
-  if (!value || !(*value > 0) || equals == 0) {
+  if (!value || !(*value > 0) || !std::isfinite(1 / *value) || equals == 0) {
     throw cli::WrongUsage("--assume: " + text + ": expected JOINT=K with a stiffness above 0 N m/rad");
   }
   return {text.substr(0, equals), *value};

@@ -77,6 +77,7 @@ refused 64 '^best-pose: --height: expected either a height or --plane-origin' "$
 refused 64 '^best-pose: --plane-y: expected a direction square to --plane-x' best-pose --robot "$robot" --plane-origin 0,0,1 --plane-y 1,1,0 k2d.json
 refused 64 '^best-pose: --map: expected a search' best-pose --robot "$robot" --evaluate poses.json --map m.json k2d.json
 refused 64 '^best-pose: --assume: A1: expected JOINT=K' "${search[@]}" --assume A1 k2d.json
+refused 64 '^best-pose: --assume: A1=1e-320: expected JOINT=K' "${search[@]}" --assume A1=1e-320 k2d.json
 refused 64 '^best-pose: same.json: expected another output' "${search[@]}" --map same.json -o same.json k2d.json
 refused 64 'at most 4000000 points' "${search[@]}" --x 0:1:3000 --y 0:1:3000 k2d.json
 refused 74 '^best-pose: /dev/full: cannot be written' "${search[@]}" --map /dev/full k2d.json
@@ -84,3 +85,16 @@ refused 64 '^best-pose: --force: .*below 1e9 N' "${search[@]}" --force 0,0,1e308
 refused 73 '^best-pose: none/map.json: cannot be created' "${search[@]}" --map none/map.json -o result.json k2d.json
 refused 66 '^best-pose: none.json: cannot be read' best-pose --robot "$robot" --evaluate none.json k2d.json
 check "nothing was written" test ! -e result.json -a ! -e same.json
+
+# Robots whose inverse kinematics is not this one: what is wrong with which parameter.
+while read -r change pattern; do
+  jq "$change" "$data/kr360.json" >other.json
+  refused 65 "^best-pose: other.json: $pattern" best-pose --robot other.json --height 1600 k2d.json
+done <<'END'
+.joints[2].a_mm=0 /joints/2/a_mm: 0: expected an upper arm longer than 0
+.joints[3].a_mm=0|.joints[3].d_mm=0 /joints/3/d_mm: 0: expected a forearm longer than 0
+.joints[4].alpha_deg=80 /joints/4/alpha_deg: 80: expected 90 or -90, since the axes of the wrist have to cross
+.joints[4].d_mm=30 /joints/4/d_mm: 30: expected 0, since axes 4, 5 and 6 have to meet in one point
+END
+refused 1 '^best-pose: no reachable pose: all poses within the joint limits are nearer to a singularity than the singularity margin$' \
+  best-pose --robot "$data/kr360.json" --height 1600 --x 1500:1700:3 --y 0:200:3 --singularity-margin 5 k2d.json

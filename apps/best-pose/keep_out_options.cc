@@ -1,27 +1,10 @@
 #include "keep_out_options.h"
 
-#include "base/range.h"
 #include "base/units.h"
-#include "cli/exit_status.h"
+#include "pose_values.h"
 #include "robot/keep_out.h"
 
 namespace stablecut {
-namespace {
-
-robot::Box parse_box(const std::string& text) {
-  const auto fields = split(text, ',');
-  robot::Box box;
-  for (std::size_t d = 0; d < 3; ++d) {
-    const auto band = fields.size() == 3 ? parse_band(fields[d]) : std::nullopt;
-    cli::refuse_if(!band, "--keep-out: " + text + ": expected XFROM:XTO,YFROM:YTO,ZFROM:ZTO, mm");
-    box.least_m[static_cast<Eigen::Index>(d)] = metres_from_mm(band->from);
-    box.most_m[static_cast<Eigen::Index>(d)] = metres_from_mm(band->to);
-  }
-  return box;
-}
-
-}  // namespace
-
 void add_keep_out_options(CLI::App& app, KeepOutOptions& options) {
   cli::add_number_option(
       app, "--keep-out-radius", options.radius_mm,

@@ -167,6 +167,7 @@ class BestPose : public cli::Tool {
       if (!along_.partial || result.document.is_null()) throw NoAnswer(along_.path + ": " + result.undone);
       warn(along_.path + ": " + result.undone);
     }
+    if (!result.untold.empty()) warn(along_.path + ": " + result.untold);
     if (!placement.is_null()) result.document["placement"] = std::move(placement);
     write_document(main_output(), std::move(result.document));
     if (!along_.joints_csv.empty()) write_text(along_.joints_csv, std::move(result.joints_csv));
@@ -199,6 +200,9 @@ class BestPose : public cli::Tool {
           robot::report_pose(robot, found.angles, document.task, elasticity, document.errors));
     };
     report(best);
+    if (const std::string text = untold_score_text(document.reports.front(), *document.task.index);
+        !text.empty())
+      warn("the best pose: " + text);
     for (const robot::FoundPose& found : document.search.alternatives) report(found);
     document.moves = robot::part_moves(robot, task, best);
     document.sweep = robot::redundancy_sweep(robot, task, best.at.x, best.at.y);
@@ -223,6 +227,8 @@ class BestPose : public cli::Tool {
         warn(place + ": a singular pose: the arm cannot yield in a direction that the index " +
              document.task.index->name + " takes into account, so it has no score");
       }
+      if (const std::string text = untold_score_text(report, *document.task.index); !text.empty())
+        warn(place + ": " + text);
       if (report.limit_margin_rad < 0) {
         warn(place + "/joints_deg: " + number_text(degrees_from_radians(-report.limit_margin_rad), 3) +
              " degrees outside the joint limits");

@@ -4,61 +4,19 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "base/range.h"
 #include "base/units.h"
 #include "cli/exit_status.h"
 #include "cli/tool.h"
 #include "document/measured/tool_path_text.h"
 #include "path_words.h"
+#include "pose_values.h"
 #include "robot/path_offset.h"
+#include "words.h"
 
 namespace stablecut {
 namespace {
 
-constexpr int kMostPlaces = 100'000;
-constexpr double kDefaultJointSpeedDeg = 60;  // deg/s, of a joint whose speed nobody says
-
-// --joint-speed: one number, or one for each joint; deg/s.
-robot::JointAngles joint_speeds(const std::string& text, const robot::Robot& robot) {
-  robot::JointAngles speeds;
-  for (int j = 0; j < robot::kJoints; ++j)
-    speeds[j] = robot.joints[j].max_speed.value_or(radians_from_degrees(kDefaultJointSpeedDeg));
-  if (text.empty()) return speeds;
-  const auto fields = split(text, ',');
-  const bool right = fields.size() == 1 || fields.size() == robot::kJoints;
-  for (int j = 0; j < robot::kJoints && right; ++j) {
-    const auto speed = parse_number(fields[fields.size() == 1 ? 0 : j]);
-    cli::refuse_if(!speed || !(*speed > 0), "--joint-speed: " + text + ": expected speeds above 0 deg/s");
-    speeds[j] = radians_from_degrees(*speed);
-  }
-  cli::refuse_if(!right, "--joint-speed: " + text + ": expected one number or six, separated by commas");
-  return speeds;
-}
-
-// --place: three or four intervals.
-robot::PlaceGrid place_grid(const std::string& text) {
-  std::vector<Range> ranges;
-  for (const std::string_view field : split(text, ',')) {
-    const auto range = parse_range(field);
-    cli::refuse_if(!range, "--place: " + text + ": expected FROM:TO:COUNT for x, y, perhaps z, and the turn");
-    ranges.push_back(*range);
-  }
-  cli::refuse_if(ranges.size() != 3 && ranges.size() != 4,
-                 "--place: " + text + ": expected FROM:TO:COUNT for x, y, perhaps z, and the turn");
-  const auto scaled = [](Range range, double unit) {
-    return Range{range.from * unit, range.to * unit, range.count};
-  };
-  robot::PlaceGrid grid;
-  grid.x = scaled(ranges[0], metres_from_mm(1));
-  grid.y = scaled(ranges[1], metres_from_mm(1));
-  if (ranges.size() == 4) grid.z = scaled(ranges[2], metres_from_mm(1));
-  grid.turn = scaled(ranges.back(), radians_from_degrees(1));
-  double size = 1;
-  for (const Range& range : ranges) size *= range.count;
-  cli::refuse_if(size > kMostPlaces,
-                 "--place: " + text + ": expected at most " + std::to_string(kMostPlaces) + " places");
-  return grid;
-}
+constexpr double kMostPlacedPoints = 1e7;  // some hours where every place has to be searched
 
 Eigen::Isometry3d frame_of(const robot::Plane& plane) {
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
@@ -142,8 +100,11 @@ robot::PathTask path_task(robot::ToolPath path, const PathOptions& options, cons
 
 document::Json place_path(const robot::Robot& robot, robot::PathTask& task, Eigen::Isometry3d& workpiece,
                           const std::string& place, int threads, const Progress& progress) {
-  const robot::PlaceSearch search =
-      robot::search_places(robot, task, place_grid(place), workpiece, threads, progress);
+  const robot::PlaceGrid grid = place_grid(place);
+  cli::refuse_beyond(kMostPlacedPoints, "--path, --place",
+                     static_cast<double>(grid.size()) * static_cast<double>(task.path.size()),
+                     "points of the path times places (fewer places, or a path with every tenth point)");
+  const robot::PlaceSearch search = robot::search_places(robot, task, grid, workpiece, threads, progress);
   if (!search.best) throw NoAnswer(no_place_text(search));
   const robot::Placement& best = search.map[*search.best].at;
   task.path = robot::placed(task.path, best, workpiece);
@@ -184,6 +145,12 @@ PathResult solve_path(const robot::Robot& robot, const robot::PathTask& task,
           robot::cancelling_offset(robot, inverse, document.reports[i], at, task.elasticity);
     }
   });
+  std::size_t untold = 0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const std::string text = untold_score_text(document.reports[i], *task.stiffness.index);
+    if (!text.empty() && ++untold == 1) result.untold = std::to_string(poses[i].first) + ": " + text;
+  }
+  if (untold > 0) result.untold = std::to_string(untold) + " points, the first " + result.untold;
   result.document = document::pose_path_to_json(document, robot);
   result.joints_csv = document::joint_angles_csv(search, robot);
   if (task.stiffness.cut) result.offsets_csv = document::offsets_csv(document, workpiece);

@@ -41,13 +41,14 @@ robot::PathTask path_task(robot::ToolPath path, const PathOptions& options, cons
 document::Json place_path(const robot::Robot& robot, robot::PathTask& task, Eigen::Isometry3d& workpiece,
                           const std::string& place, int threads, const Progress& progress);
 
-/// What the search of a path gives: the documents, and what it could not do in words, empty where all is
+/// What the search of a path gives: the documents, and in words what it could not do, empty where all is
 /// done.
 struct PathResult {
   document::Json document;  ///< null where no part of the path is driven
   std::string joints_csv;
   std::string offsets_csv;  ///< with a cut
   std::string undone;
+  std::string untold;  ///< points whose score is smaller than its own standard deviation; empty where none
 };
 PathResult solve_path(const robot::Robot& robot, const robot::PathTask& task,
                       const Eigen::Isometry3d& workpiece, const robot::ElasticityErrors& errors, int threads,

@@ -91,6 +91,8 @@ check_jq "three lengths and a turn" high.json '[.placement.map[].z_mm] == [-100,
 refused 1 '^best-pose: --place: the path is driven at none of 4 places: at 4 some point has no pose' run --path line.json --place 9000:9500:4,0:0:1,0:0:1 k2d.json
 refused 64 '^best-pose: --place: 0:1:2,0:1:2: expected FROM:TO:COUNT for x, y' run --path line.json --place 0:1:2,0:1:2 k2d.json
 refused 64 '^best-pose: --place: 0:1,0:1:2,0:1:2: expected FROM:TO:COUNT for x, y' run --path line.json --place 0:1,0:1:2,0:1:2 k2d.json
+jq '.points = [range(251) | {position_mm: [. * 4, 0, 0], axis: [0, 0, -1]}]' line.json >fine.json
+refused 64 '^best-pose: --path, --place: 25100000: expected at most 10000000 points of the path times places \(fewer places' run --path fine.json --place 0:1:1000,0:1:100,0:0:1 k2d.json
 refused 64 '^best-pose: --place: expected with --path only' run --height 1600 --place 0:1:2,0:1:2,0:0:1 k2d.json
 
 # Wrong use and wrong data.
@@ -99,8 +101,27 @@ refused 64 '^best-pose: --force-frame: feed: expected with --path only' run --he
 refused 64 '^best-pose: --path: expected without --height' run --path line.json --height 1600 k2d.json
 refused 64 '^best-pose: --joint-speed: 1,2: expected one number or six' run --path line.json --joint-speed 1,2 k2d.json
 refused 64 '^best-pose: --joint-speed: 0: expected speeds above 0' run --path line.json --joint-speed 0 k2d.json
+refused 64 '^best-pose: --joint-speed: 1e-323: expected speeds above 0' run --path line.json --joint-speed 1e-323 k2d.json
 refused 65 '^best-pose: line.txt: line 1: expected a speed' run --path line.txt k2d.json
 refused 65 '^best-pose: line.json: /frame: .*from one place only' run --path line.json "${frame[@]}" k2d.json
+awk 'BEGIN {for (i = 0; i <= 100000; ++i) print i / 100, "0 0 0 0 1"}' >long.txt
+refused 65 '^best-pose: long.txt: line 100001: expected at most 100000 points \(divide the path\)' run --path long.txt --path-speed 50 k2d.json
+jq '.points = [range(100001) | {position_mm: [. / 100, 0, 0], axis: [0, 0, -1]}]' line.json >long.json
+refused 65 '^best-pose: long.json: /points: .*: expected at most 100000 points \(divide the path\)' run --path long.json k2d.json
 refused 66 '^best-pose: none.json: cannot be read' run --path none.json k2d.json
 jq 'del(.points[3].axis)' line.json >bad.json
 refused 65 '^best-pose: bad.json: /points/3/axis: missing' run --path bad.json k2d.json
+
+# As many stretches as points: each is driven by itself, and what lies between is said in one line.
+jq '[.points[]] as $p | .points = [range(51) | $p[.] | if .position_mm[0] % 40 == 20 then .position_mm[1] = 9000 else . end]' line.json >gaps.json
+refused 1 '^best-pose: gaps.json: point 1: out of reach; .*; and 17 more stretches$' run --path gaps.json k2d.json
+run --path gaps.json --partial k2d.json -o gaps-path.json
+check_jq "every other point is a part of its own" gaps-path.json '[.parts[] | [.first, .last]] == [range(26) | [2 * ., 2 * .]] and (.obstacles | length) == 25'
+run --path line.json --joint-speed 0.001 --partial k2d.json -o fast-path.json
+check_jq "so is each where the joints are too slow" fast-path.json '(.parts | length) == 51 and (.obstacles | length) >= 1 and all(.obstacles[]; .constraint == "joint-speed")'
+
+# What stands in the way at the points themselves, in words.
+refused 1 '^best-pose: line.json: points 0 to 50: nearer to a singularity than the singularity margin, 0\.[0-9]*$' run --path line.json --singularity-margin 5 k2d.json
+refused 1 '^best-pose: line.json: points 0 to 50: limit of joint A[1-6]: only [0-9.]* degrees from it$' run --path line.json --limit-margin 60 k2d.json
+echo '2000000 0 0 0 0 1' >far.txt
+refused 65 "^best-pose: far.txt: line 1: expected a position of a robot's size$" run --path far.txt --path-speed 50 k2d.json

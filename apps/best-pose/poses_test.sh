@@ -151,6 +151,20 @@ jq '.std_n_m_per_rad = [1e5, 1e5, 1e5, 1e5, 1e5, 1e5]' off.json >off-std.json
 best-pose --robot "$robot" --quiet --evaluate poses.json --force 0,0,-588.6 --index deflection off-std.json >both.json
 check_jq "beside the covariance" both.json '[.evaluated, $off[0].evaluated] | transpose | all(.[0].score_std > .[1].score_std)' --slurpfile off off-scores.json
 
+# A score that is smaller than what is not known of it is said to be: of a search, of given poses, of a path.
+jq '.std_n_m_per_rad = [.stiffness_n_m_per_rad[] | 3 * .]' k2d.json >vague.json
+untold='the score [0-9.e+]* N/m is smaller than its own standard deviation, [0-9.e+]*: the joint stiffness does not tell how stiff this is$'
+best-pose --robot "$robot" --height 1600 --x 1500:1700:3 --y 0:200:3 vague.json >vague-best.json 2>said
+check "a vague score of the best pose is said" grep -Eq "^best-pose: warning: the best pose: $untold" said
+check_jq "and is" vague-best.json '.best.score_std > .best.score'
+best-pose --robot "$robot" --evaluate poses.json vague.json 2>said >vague-scores.json
+check "of each given pose" test "$(grep -Ec "^best-pose: warning: poses.json: /poses/[0-9]+: $untold" said)" = "$(jq '[.evaluated[] | select(.score_std > .score)] | length' vague-scores.json)"
+best-pose --robot "$robot" --path "$data/zigzag-path.json" --index combined vague.json 2>said >vague-path.json
+check "of the points of a path, once" test "$(grep -Ec "^best-pose: warning: .*zigzag-path.json: [0-9]+ points, the first [0-9]+: $untold" said)" -eq 1
+jq '.std_n_m_per_rad = [.stiffness_n_m_per_rad[] | 0.1 * .]' k2d.json >clear.json
+best-pose --robot "$robot" --height 1600 --x 1500:1700:3 --y 0:200:3 clear.json 2>said >/dev/null
+check "a score that is known is no matter for a word" test ! -s said
+
 # A joint with a lower bound only.
 jq '.stiffness_n_m_per_rad[3] = null | .interval_95_n_m_per_rad = [null, null, null, [1.23e6, null], null, null]' k2d.json >bound.json
 refused 1 '/stiffness_n_m_per_rad/3: null: A4 not identified: .*--assume A4=K \(by its 95 % interval A4 above 1.23e\+0?6 N m/rad\)' best-pose --robot "$robot" --height 1600 bound.json

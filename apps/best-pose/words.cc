@@ -107,6 +107,14 @@ std::string rigid_springs_text(const robot::JointStiffness& joints, const robot:
   return names.empty() ? "" : "/springs: " + names + ": not identified: taken as rigid";
 }
 
+std::string untold_score_text(const robot::PoseReport& report, const robot::StiffnessIndex& index) {
+  if (!report.score_std || !(*report.score_std > report.score)) return "";
+  return "the score " + number_text(report.score * index.units_per_score, 3) + " " + index.unit +
+         " is smaller than its own standard deviation, " +
+         number_text(*report.score_std * index.units_per_score, 3) +
+         ": the joint stiffness does not tell how stiff this is";
+}
+
 std::string idle_redundancy_text(const robot::Robot& robot, const robot::StiffnessIndex& index) {
   return "--redundancy: the tool is coaxial with joint " + robot.joints.back().name +
          ", which alone turns it: no redundancy angle can change the index " + index.name;

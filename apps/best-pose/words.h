@@ -32,6 +32,10 @@ document::DataError unsupported_robot(const robot::UnsupportedGeometry& bad, con
 /// Which springs have no compliance and count as rigid; empty where all have one.
 std::string rigid_springs_text(const robot::JointStiffness& joints, const robot::Robot& robot);
 
+/// That a pose's score is smaller than its own standard deviation; empty where it is larger, or the deviation
+/// is not known.
+std::string untold_score_text(const robot::PoseReport& report, const robot::StiffnessIndex& index);
+
 /// A warning that the redundancy angle cannot change the index.
 std::string idle_redundancy_text(const robot::Robot& robot, const robot::StiffnessIndex& index);
 

@@ -80,3 +80,16 @@ refused 65 '^cut-force: short.csv: line 3: 0.01: expected times in equal steps' 
 check "nothing was written" test ! -e result.json
 refused 74 '^cut-force: /dev/full: cannot be written' cut-force cut.json -o /dev/full
 refused 73 '^cut-force: none/x.json: cannot be created' cut-force cut.json -o none/x.json
+
+# Tables of cuts and of forces.
+: >empty.csv
+refused 65 '^cut-force: empty.csv: empty input: expected depth_mm,speed_rpm' cut-force cut.json --table "$table" --points empty.csv
+printf 'depth,speed\n1,2\n' >head.csv
+refused 65 '^cut-force: head.csv: line 1: expected columns depth_mm and speed_rpm in the header$' cut-force cut.json --table "$table" --points head.csv
+printf 'depth_mm,speed_rpm\n1,0\n' >still.csv
+refused 65 '^cut-force: still.csv: line 2: 0: expected a speed above 0 rpm$' cut-force cut.json --table "$table" --points still.csv
+awk -F, 'BEGIN {OFS = ","} {print $0, NR == 1 ? "entry_deg" : 90, NR == 1 ? "exit_deg" : 80}' "$data/slot-forces.csv" >arc.csv
+refused 65 '^cut-force: arc.csv: line 2: 80: expected an angle above entry_deg$' cut-force --identify arc.csv "$data/slotting-tool.json"
+cut -d, -f1-3,5- "$data/slot-forces.csv" >no-feed.csv
+jq 'del(.feed_per_tooth_mm)' "$data/slotting-tool.json" >no-feed.json
+refused 65 '^cut-force: no-feed.csv: line 1: expected a column feed_per_tooth_mm, or feed_per_tooth_mm in the cut$' cut-force --identify no-feed.csv no-feed.json

@@ -84,3 +84,15 @@ done
 cut-force --identify records/list.csv "$tool" -o records-out.json
 check_jq "means of records" records-out.json '[.kt_n_per_mm2 / 700, .kr_n_per_mm2 / 250, .kte_n_per_mm / 20, .kre_n_per_mm / 30] | all(. - 1 | fabs < 0.03)'
 check_jq "records are inputs" records-out.json '.provenance.inputs | length == 5'
+
+# Too few forces: what reaches 0 is named, with its interval.
+head -n 4 "$forces" >few.csv
+cut-force --identify few.csv "$tool" -o few.json 2>said
+check "coefficients whose interval reaches 0 are named" test "$(grep -o 'K[a-z]* = [^,:]* +- ' said | cut -d' ' -f1 | paste -sd,)" = \
+  "$(jq -r '[.identification.coefficients[] | select(.interval_95[0] <= 0) | .name] | map({kt_n_per_mm2: "Kt", kr_n_per_mm2: "Kr", kae_n_per_mm: "Kae", ka_n_per_mm2: "Ka", kte_n_per_mm: "Kte", kre_n_per_mm: "Kre"}[.] // .) | join(",")' few.json)"
+check "in one line" test "$(grep -c 'the interval reaches 0$' said)" -eq 1
+
+# The arc as columns of the table, in the place of the cut's.
+awk -F, 'BEGIN {OFS = ","} {print $0, NR == 1 ? "entry_deg" : 0, NR == 1 ? "exit_deg" : 180}' "$forces" >arc.csv
+jq '.milling = "up" | .radial_immersion = 0.25' "$tool" | cut-force --identify arc.csv -o arc.json
+check_jq "a slot by its angles" arc.json '(.kt_n_per_mm2 / $f[0].kt_n_per_mm2 - 1 | fabs) < 1e-9 and (.kr_n_per_mm2 / $f[0].kr_n_per_mm2 - 1 | fabs) < 1e-9' --slurpfile f found.json

@@ -62,3 +62,13 @@ check "is said" grep -q 'the motion has not settled' <(cut-force cut.json --tabl
 jq '.runout_um = [30, -30] | .pitch_deg = [170, 190]' cut.json >uneven.json
 cut-force uneven.json --table "$table" --points point.csv --passes 60 --quiet -o uneven-out.json
 check_jq "runout and unequal pitches" uneven-out.json '.harmonics[0].per_revolution == 1 and .points[0].growth_per_tooth > 0.9'
+
+# A growth that its error leaves on both sides of 1 is no verdict, nor is that of a motion which is none of the cut.
+printf 'depth_mm,speed_rpm\n1,20000\n1.5,15000\n' >open.csv
+cut-force cut.json --table "$table" --points open.csv --passes 50 -o open.json 2>said
+check_jq "the error reaches across 1" open.json '[.points[] | (.growth_per_tooth - 1 | fabs) <= .growth_error * .growth_per_tooth] == [false, true]'
+check "and is said to" grep -q '^cut-force: warning: open.csv: at 1 points the growth is nearer to 1 than its error: whether they are stable is left open$' said
+jq '.pitch_deg = [230, 130] | .feed_per_tooth_mm = 0.005' cut.json >thin.json
+cut-force thin.json --table "$table" --depth 1 --speed 9000 --passes 20 -o thin-out.json 2>said
+check_jq "a tooth would lose its thin chip" thin-out.json '.points[0].keeps_contact | not'
+check "and is said to" grep -q 'at 1 points the motion whose growth is told would leave a tooth without its chip' said

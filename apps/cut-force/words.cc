@@ -1,6 +1,7 @@
 #include "words.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/number_text.h"
 #include "document/kinds/identified_cut_json.h"
@@ -96,15 +97,19 @@ std::vector<std::string> identification_warnings(const milling::ForceIdentificat
              ? ": it is plainly below 0: are the signs right, and the forces linear in the feed?"
              : ""));
   }
-  const int kt = static_cast<int>(Coefficient::kKt);
-  if (fitted.deviations_known[0] && fitted.value[kt] <= fitted.half_interval_95[kt])
-    warnings.push_back(value_text(fitted, kt) + ": the interval reaches 0");
+  std::string untold;
+  for (int c = 0; c < milling::kCoefficients; ++c) {
+    if (fitted.verdict[c] == CoefficientVerdict::kIdentified && !held_at_zero[c] &&
+        std::abs(fitted.value[c]) <= fitted.half_interval_95[c])
+      untold += (untold.empty() ? "" : ", ") + value_text(fitted, c);
+  }
+  if (!untold.empty()) warnings.push_back(untold + ": the interval reaches 0");
   return warnings;
 }
 
 std::vector<std::string> point_warnings(const std::vector<document::SimulatedPoint>& points,
                                         const std::string& source) {
-  int failed = 0, away = 0, slow = 0, coarse = 0;
+  int failed = 0, away = 0, slow = 0, coarse = 0, open = 0, elsewhere = 0;
   const std::string* first = nullptr;
   for (const document::SimulatedPoint& point : points) {
     if (!point.result) {
@@ -113,6 +118,8 @@ std::vector<std::string> point_warnings(const std::vector<document::SimulatedPoi
       continue;
     }
     coarse += !(point.result->growth.error < kCoarse);
+    open += point.result->is_open();
+    elsewhere += !point.result->keeps_contact;
     away += point.result->ran_away;
     slow += point.result->stable() && !point.result->settled && !point.result->ran_away;
   }
@@ -124,6 +131,16 @@ std::vector<std::string> point_warnings(const std::vector<document::SimulatedPoi
                        of(coarse,
                           "points the growth has not settled with the steps (see "
                           "growth_error)"));
+  if (open > 0)
+    warnings.push_back(source + ": at " +
+                       of(open,
+                          "points the growth is nearer to 1 than its error: whether they are stable is left "
+                          "open"));
+  if (elsewhere > 0)
+    warnings.push_back(source + ": at " +
+                       of(elsewhere,
+                          "points the motion whose growth is told would leave a tooth without its chip: the "
+                          "growth says nothing of the one that takes its place (see keeps_contact)"));
   if (away > 0)
     warnings.push_back(source + ": at " +
                        of(away,
@@ -148,9 +165,19 @@ std::string contradiction_text(const milling::CoefficientPosterior& posterior,
 }
 
 std::vector<std::string> posterior_warnings(const milling::CoefficientPosterior& posterior) {
-  if (posterior.effective_samples >= kFewSamples) return {};
-  return {"the answer rests on " + number_text(posterior.effective_samples, 2) +
-          " effective samples: more are needed (--samples)"};
+  std::vector<std::string> warnings;
+  if (posterior.effective_samples < kFewSamples)
+    warnings.push_back("the answer rests on " + number_text(posterior.effective_samples, 2) +
+                       " effective samples: more are needed (--samples)");
+  const auto judge = [&](const char* symbol, double value, double deviation) {
+    if (deviation > value)
+      warnings.push_back(std::string(symbol) + " = " + number_text(value * 1e-6, 4) +
+                         " N/mm2 with a standard deviation of " + number_text(deviation * 1e-6, 3) +
+                         ": the tested cuts leave it open");
+  };
+  judge("Kt", posterior.kt_n_per_m2, posterior.deviations.kt_n_per_m2);
+  judge("Kr", posterior.kr_n_per_m2, posterior.deviations.kr_n_per_m2);
+  return warnings;
 }
 
 }  // namespace stablecut

@@ -49,3 +49,12 @@ check_jq "the table says so" "$scratch/a.json" '.fit.window_decay_per_s == 6 and
 fit-modes exponential-window.csv -o "$scratch/windowed.json"
 check_jq "without it the damping is too high" "$scratch/windowed.json" '.modes[0].damping_ratio > 0.035'
 refused 1 '^fit-modes: exponential-window.csv: the mode at 150.* Hz decays by 34.* 1/s, less than the window alone' fit-modes --quiet --window-decay 40 exponential-window.csv
+
+# More modes than the noise lets be told: those whose numbers are smaller than their deviations are named, and no others.
+fit-modes --synthesize 2:1000:1000 --noise-db 20 "$data/thesis-table-6-2.json" >"$scratch/noisy.json"
+fit-modes --modes 30 "$scratch/noisy.json" 2>"$err" >"$scratch/many.json"
+vague='def size: [.[][]] | map(. * .) | add | sqrt; [.modes[] | select(.out_of_band | not) | select(.std.damping_ratio > .damping_ratio or (.std.psi_r | size) > (.psi_r | size)
+  or (.std.psi_l | size) > (.psi_l | size))] | length'
+check "modes of which nothing is told are said" grep -q "noisy.json: damping or vectors of $(jq "$vague" "$scratch/many.json") of $(jq '.modes | length' "$scratch/many.json") modes are smaller" "$err"
+fit-modes "$scratch/noisy.json" 2>"$err" >"$scratch/found.json"
+check "a table without such modes has no word of them" test "$(jq "$vague" "$scratch/found.json")" -eq 0 -a "$(grep -c 'damping or vectors' "$err")" -eq 0

@@ -1,22 +1,14 @@
 #include "fit_choice.h"
 
 #include <algorithm>
-#include <cmath>
-#include <string_view>
 
 #include "base/error.h"
 #include "cli/exit_status.h"
 #include "document/measured/given_poles.h"
+#include "fit_values.h"
 #include "report.h"
 
 namespace stablecut {
-
-std::optional<double> parse_decay(std::string_view text) {
-  const bool is_time = text.ends_with('s');
-  const auto number = parse_number(text.substr(0, text.size() - (is_time ? 1 : 0)));
-  if (!number || !(*number > 0) || !std::isfinite(1 / *number)) return std::nullopt;
-  return is_time ? 1 / *number : *number;
-}
 
 void FitChoice::declare(CLI::App& app) {
   app.add_option_function<std::string>(
@@ -33,7 +25,7 @@ void FitChoice::declare(CLI::App& app) {
                          "criterion prefers");
   cli::add_repeated_option(app, "--exclude", "LO:HI,...",
                            "Leave the lines in these bands (Hz) out of the fit",
-                           [this](const std::string& text) { take_excluded(text); });
+                           [this](const std::string& text) { add_bands(text, excluded_); });
   app.add_option(
          "--poles", poles_path_,
          "Modes at the poles of this modal table, or of columns frequency_hz,damping_ratio; as many, none "
@@ -60,14 +52,6 @@ void FitChoice::take_modes(const std::string& text) {
   if (text == "auto") return;
   modes_ = parse_integer(text);
   cli::refuse_if(!modes_ || *modes_ < 1, "--modes: " + text + ": expected auto or a number of modes");
-}
-
-void FitChoice::take_excluded(const std::string& text) {
-  for (const std::string_view part : split(text, ',')) {
-    const auto band = parse_band(part);
-    cli::refuse_if(!band, "--exclude: " + std::string(part) + ": expected LO:HI in Hz, LO below HI");
-    excluded_.push_back(*band);
-  }
 }
 
 void FitChoice::check() const {

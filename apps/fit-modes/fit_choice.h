@@ -3,7 +3,6 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "cli/tool.h"
@@ -11,10 +10,6 @@
 #include "modal/tap_checks.h"
 
 namespace stablecut {
-
-/// The decay of an exponential window, 1/s, above 0: as such or as a time constant, 0.2s. Nothing for another
-/// text.
-std::optional<double> parse_decay(std::string_view text);
 
 class FitChoice {
  public:
@@ -43,7 +38,6 @@ class FitChoice {
  private:
   void take_window_decay(const std::string& text);
   void take_modes(const std::string& text);
-  void take_excluded(const std::string& text);
 
   double window_decay_per_s_ = 0;
   std::optional<int> modes_;

@@ -133,6 +133,7 @@ class FitModes : public cli::Tool {
     if (fit.variance_given && !fit.limited_by_model)
       table = dynamics::with_window_noise(std::move(table), used);
     if (decay > 0) table = named([&] { return dynamics::without_window(std::move(table), decay); });
+    if (const std::string text = untold_text(table); !text.empty()) warn(input_name_ + ": " + text);
     document::Json document = document::modal_table_to_json(table);
     document["fit"].update(fit_report(fit, used));
     choice_.add_to_report(document["fit"]);
@@ -209,13 +210,11 @@ class FitModes : public cli::Tool {
   }
 
   void write_frf(const dynamics::FrequencyResponse& frf) {
-    if (const auto form = frf_output_.universal_form()) {
-      if (frf.window_decay_per_s > 0)
-        throw cli::WrongUsage("--to: a universal file cannot tell of an exponential window: expected json");
-      write_text(main_output(), named([&] { return document::frf_to_universal_file(frf, *form); }));
-    } else {
-      write_document(main_output(), document::frf_to_json(frf));
-    }
+    const auto form = frf_output_.universal_form();
+    if (!form) return write_document(main_output(), document::frf_to_json(frf));
+    if (frf.window_decay_per_s > 0)
+      throw cli::WrongUsage("--to: a universal file cannot tell of an exponential window: expected json");
+    write_text(main_output(), named([&] { return document::frf_to_universal_file(frf, *form); }));
   }
 
   // What `work` gives; its failures get the input's name before them.

@@ -33,11 +33,11 @@ void MeasurementOptions::declare(CLI::App& app) {
   cli::add_number_option(app, "--averages", choice_.averages, "Averages behind the file's coherences",
                          "a number, at least 1", [](double value) { return value >= 1; });
   for (const std::string option : {"--delay", "--scale"}) {
-    cli::add_repeated_option(app, option, option == "--delay" ? "[XY=]MS" : "[XY=]FACTOR",
-                             option == "--delay"
-                                 ? "The response of the entry (of all) is that late, ms: it is taken off"
-                                 : "Multiply the entry (all) by that",
-                             [this, option](const std::string& text) { take_correction(option, text); });
+    cli::add_repeated_option(
+        app, option, option == "--delay" ? "[XY=]MS" : "[XY=]FACTOR",
+        option == "--delay" ? "The response of the entry (of all) is that late, ms: it is taken off"
+                            : "Multiply the entry (all) by that",
+        [this, option](const std::string& text) { corrections_.push_back(parse_correction(option, text)); });
   }
   cli::add_band_option(app, "--band", band_, "Use only the lines in this band, Hz");
   declared_ = {app.get_option("--from"),     app.get_option("--quantity"),  app.get_option("--unit"),
@@ -61,19 +61,6 @@ void MeasurementOptions::take_entry(const std::string& text) {
                           ": expected DIRECTIONS=FILE, as xy=tap.csv (response x, force along y)");
   parts_.push_back(*part);
   part_paths_.push_back(text.substr(equals + 1));
-}
-
-void MeasurementOptions::take_correction(const std::string& option, const std::string& text) {
-  const auto equals = text.find('=');
-  Correction correction{option, text, equals == std::string::npos ? "" : text.substr(0, equals)};
-  const auto number = parse_number(equals == std::string::npos ? text : text.substr(equals + 1));
-  const bool is_delay = option == "--delay";
-  if (!number || equals == 0 || (!is_delay && *number == 0)) {
-    throw cli::WrongUsage(option + ": " + text + ": expected " +
-                          (is_delay ? "milliseconds, as 0.25 or xy=0.25" : "a factor, as 9.81 or xy=1.05"));
-  }
-  (is_delay ? correction.delay_ms : correction.factor) = *number;
-  corrections_.push_back(std::move(correction));
 }
 
 void MeasurementOptions::finish(Measurement& measurement) const {

@@ -8,6 +8,7 @@
 
 #include "cli/tool.h"
 #include "document/measured/frf_import.h"
+#include "fit_values.h"
 
 namespace stablecut {
 
@@ -16,14 +17,6 @@ struct Measurement {
   std::string name;                       ///< of the input, or of the first of several
   bool is_document = false;               ///< a frf document, in which zeros mean uncoupled
   std::vector<document::Remark> remarks;  ///< on how the files were read
-};
-
-/// Takes off what is known to be wrong with an entry, or with all of them.
-struct Correction {
-  std::string option, text;  ///< as it was given
-  std::string entry;         ///< response and reference, as xy; empty: all
-  double delay_ms = 0;       ///< by how much the response is late
-  double factor = 1;         ///< that the values are multiplied by
 };
 
 class MeasurementOptions {
@@ -50,7 +43,6 @@ class MeasurementOptions {
 
  private:
   void take_entry(const std::string& text);
-  void take_correction(const std::string& option, const std::string& text);
   void check_form(const document::Input& input, const document::FrfChoice& choice) const;
 
   std::string from_, quantity_;

@@ -8,7 +8,6 @@
 #include "cli/exit_status.h"
 #include "document/kinds/frf_json.h"
 #include "document/text/data_error.h"
-#include "fit_choice.h"
 
 namespace stablecut {
 namespace {
@@ -34,7 +33,7 @@ void TapOptions::declare(CLI::App& app) {
       app, "--taps", "X=FILE,...",
       "Records of hits instead of frequency responses: the direction of the force, and files with columns of "
       "time, force and responses, or universal files",
-      [this](const std::string& text) { take_taps(text); });
+      [this](const std::string& text) { add_taps(text, parts_); });
   cli::add_number_option(app, "--sample-rate", records_.sample_rate_hz,
                          "Samples a second of the records (default: by their times)", "a rate above 0 Hz",
                          is_positive);
@@ -68,18 +67,6 @@ void TapOptions::declare(CLI::App& app) {
       app.get_option("--tap-length"), app.get_option("--tap-window"),  app.get_option("--force-window")};
 }
 
-void TapOptions::take_taps(const std::string& text) {
-  const auto equals = text.find('=');
-  std::string direction = text.substr(0, equals);
-  document::take_sign(direction);
-  cli::refuse_if(equals == std::string::npos || direction.empty() || equals + 1 == text.size(),
-                 "--taps: " + text + ": expected DIRECTION=FILE, as x=hits.csv (force along x)");
-  for (const std::string_view path : split(std::string_view(text).substr(equals + 1), ',')) {
-    cli::refuse_if(path.empty(), "--taps: " + text + ": expected files between commas");
-    parts_.push_back({text.substr(0, equals), std::string(path)});
-  }
-}
-
 void TapOptions::take_decay(const std::string& text) {
   if (text == "auto") return;
   if (text == "none") {
@@ -106,7 +93,7 @@ std::vector<TapOptions::Column> TapOptions::read_columns(const MeasurementOption
   choice.quantity = general.quantity();
   choice.unit = general.unit();
   std::vector<Column> columns;
-  for (const Part& part : parts_) {
+  for (const TapFile& part : parts_) {
     std::string reference = part.reference;
     const double sign = document::take_sign(reference);
     const document::Input input = read_input(part.path, cli::InputForm::kByContent);

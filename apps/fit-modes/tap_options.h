@@ -8,6 +8,7 @@
 
 #include "cli/tool.h"
 #include "document/measured/tap_records.h"
+#include "fit_values.h"
 #include "measurement.h"
 #include "taps/tap_campaign.h"
 
@@ -28,20 +29,14 @@ class TapOptions {
                    const Warn& warn) const;
 
  private:
-  // The files of one direction, each with a place in its column.
-  struct Part {
-    std::string reference;  // with its sign
-    std::string path;
-  };
   struct Column;
 
-  void take_taps(const std::string& text);
   void take_decay(const std::string& text);
   void take_sensitivity(const std::string& text);
   std::vector<Column> read_columns(const MeasurementOptions& general,
                                    const MeasurementOptions::Reader& read_input, Measurement& result) const;
 
-  std::vector<Part> parts_;
+  std::vector<TapFile> parts_;
   document::TapRecordChoice records_;
   std::optional<double> trigger_n_, length_s_, pre_trigger_s_, decay_per_s_;
   std::string estimator_, force_window_;

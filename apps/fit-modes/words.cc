@@ -7,7 +7,7 @@
 namespace stablecut {
 namespace {
 
-constexpr std::size_t kShownLines = 5;  // of the disturbed ones
+constexpr std::size_t kShownLines = 5;  // of the disturbed ones, and of modes
 
 std::string number(double value) { return number_text(value, 3); }
 
@@ -152,6 +152,18 @@ std::string words_of(const modal::TapFinding& finding, bool band_chosen) {
       return disturbed_lines(finding);
   }
   return "";
+}
+
+std::string untold_text(const dynamics::ModalModel& table) {
+  const std::vector<std::size_t> untold = dynamics::untold_modes(table);
+  if (untold.empty()) return "";
+  std::string list;
+  for (std::size_t i = 0; i < std::min(untold.size(), kShownLines); ++i)
+    list += (i == 0 ? "" : ", ") + number_text(table.modes[untold[i]].frequency_hz, 4);
+  if (untold.size() > kShownLines) list += ", ...";
+  return "damping or vectors of " + std::to_string(untold.size()) + " of " +
+         std::to_string(table.modes.size()) + " modes are smaller than their own standard deviations (" +
+         list + " Hz): these numbers tell nothing by themselves";
 }
 
 std::string words_of(const modal::FitFinding& finding) {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "dynamics/modal_model.h"
 #include "modal/fit.h"
 #include "modal/tap_checks.h"
 
@@ -11,5 +12,8 @@ namespace stablecut {
 /// `band_chosen`: the user says which lines count, so that none are left out at the low end.
 std::string words_of(const modal::TapFinding& finding, bool band_chosen);
 std::string words_of(const modal::FitFinding& finding);
+
+/// Which of the table's modes its own deviations leave untold; empty where none.
+std::string untold_text(const dynamics::ModalModel& table);
 
 }  // namespace stablecut

@@ -104,6 +104,22 @@ TEST_CASE("what a tap shows about itself, in words") {
         "out, since each would be taken for a mode");
 }
 
+TEST_CASE("modes of which nothing is told, in words") {
+  dynamics::ModalModel table;
+  table.dofs = {"x"};
+  for (const double hz : {100.0, 200.0, 300.0, 400.0, 500.0, 600.0, 700.04})
+    table.modes.push_back({hz, 0.02, Eigen::VectorXcd::Ones(1), Eigen::VectorXcd::Ones(1)});
+  table.covariance = Eigen::MatrixXd::Zero(42, 42);
+  CHECK(untold_text(table) == "");
+  table.covariance(37, 37) = 1;  // the last damping
+  CHECK(untold_text(table) ==
+        "damping or vectors of 1 of 7 modes are smaller than their own standard deviations (700 Hz): these "
+        "numbers tell nothing by themselves");
+  for (int k = 0; k < 6; ++k) table.covariance(6 * k + 1, 6 * k + 1) = 1;
+  CHECK_THAT(untold_text(table),
+             Catch::Contains("7 of 7 modes") && Catch::Contains("(100, 200, 300, 400, 500, ... Hz)"));
+}
+
 TEST_CASE("what a fit leaves to be known, in words") {
   check({.kind = FitFindingKind::kVarianceTooSmall},
         "the residual is much larger than the given variance: the noise was estimated instead");

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <functional>
+#include <initializer_list>
 #include <iterator>
 #include <stdexcept>
 
+#include "assumed_stiffness.h"
 #include "base/error.h"
 #include "base/range.h"
 #include "cli/exit_status.h"
@@ -33,7 +36,10 @@
 #include "document/measured/tool_path_text.h"
 #include "document/text/data_error.h"
 #include "document/text/flat_table.h"
+#include "fit_values.h"
+#include "lobe_values.h"
 #include "option_values.h"
+#include "pose_values.h"
 
 namespace stablecut {
 namespace {
@@ -223,13 +229,25 @@ void take_given_poles(const std::string& bytes) {
            "a pole that is not damped");
 }
 
-// One option's text in each line.
-void take_options(const std::string& bytes) {
+// `takers` get each line, as the text of an option; each may refuse it.
+void take_lines(const std::string& bytes,
+                std::initializer_list<std::function<void(const std::string&)>> takers) {
   for (const std::string_view line : split(bytes, '\n')) {
-    const std::string text(line);
+    for (const auto& take : takers) {
+      try {
+        take(std::string(line));
+      } catch (const cli::WrongUsage&) {
+      }
+    }
+  }
+}
+
+void take_options(const std::string& bytes) {
+  const auto forms_of = [](const std::string& text) {
     if (const auto range = parse_range(text)) {
       expect(range->count >= 1 && range->at(0) == range->from && range->at(range->count - 1) == range->to,
              "a range without its ends");
+      expect(std::isfinite(range->at(range->count / 2)), "a range with a value that is not finite");
     }
     if (const auto band = parse_band(text)) expect(band->from < band->to, "a band that does not increase");
     if (const auto list = parse_index_list(text))
@@ -240,21 +258,72 @@ void take_options(const std::string& bytes) {
     frf_unit(text);
     frequency_unit(text);
     sensitivity_named(text);
-    const auto refused = [&](const auto& take) {
-      try {
-        take();
-      } catch (const cli::WrongUsage&) {
-      }
-    };
-    refused([&] {
-      std::vector<double> positions_m;
-      add_positions(text, positions_m);
-    });
-    refused([&] {
-      receptance::JointBounds bounds;
-      set_bounds(text, bounds);
-    });
-  }
+    frf_part_named(text);
+  };
+  const auto positions_of = [](const std::string& text) {
+    std::vector<double> positions_m;
+    add_positions(text, positions_m);
+  };
+  const auto bounds_of = [](const std::string& text) {
+    receptance::JointBounds bounds;
+    set_bounds(text, bounds);
+  };
+  take_lines(bytes, {forms_of, positions_of, bounds_of});
+}
+
+void take_pose_options(const std::string& bytes) {
+  const auto box_of = [](const std::string& text) {
+    const robot::Box box = parse_box(text);
+    expect((box.least_m.array() <= box.most_m.array()).all() && box.most_m.allFinite(), "a box inside out");
+  };
+  const auto grid_of = [](const std::string& text) {
+    const robot::PlaceGrid grid = place_grid(text);
+    for (const Range& range : {grid.x, grid.y, grid.z, grid.turn})
+      expect(range.count >= 1 && range.from <= range.to && std::isfinite(range.to - range.from),
+             "places without an order");
+  };
+  const auto speeds_of = [](const std::string& text) {
+    expect((joint_speeds(text, bundled_robot()).array() > 0).all(), "a joint that stands");
+  };
+  const auto assumed_of = [](const std::string& text) {
+    const double stiffness = parse_assumed(text).second;
+    expect(stiffness > 0 && std::isfinite(1 / stiffness), "a joint without stiffness");
+  };
+  take_lines(bytes, {box_of, grid_of, speeds_of, assumed_of});
+}
+
+void take_fit_options(const std::string& bytes) {
+  const auto decay_of = [](const std::string& text) {
+    const auto decay = parse_decay(text);
+    expect(!decay || (*decay > 0 && std::isfinite(*decay)), "a decay that is none");
+  };
+  const auto bands_of = [](const std::string& text) {
+    std::vector<Range> bands;
+    add_bands(text, bands);
+    expect(!bands.empty(), "an exclusion of nothing");
+  };
+  const auto correction_of = [](const std::string& text) {
+    parse_correction("--delay", text);
+    expect(parse_correction("--scale", text).factor != 0, "a factor of zero");
+  };
+  const auto taps_of = [](const std::string& text) {
+    std::vector<TapFile> files;
+    add_taps(text, files);
+    expect(!files.empty(), "a direction without files");
+  };
+  take_lines(bytes, {decay_of, bands_of, correction_of, taps_of});
+}
+
+void take_lobe_options(const std::string& bytes) {
+  const auto modes_of = [](const std::string& text) {
+    const ModeList list = parse_modes(text);
+    expect(list.indices.has_value() == list.labels.empty(), "a list of no modes");
+  };
+  const auto shard_of = [](const std::string& text) {
+    const document::Shard shard = parse_shard(text);
+    expect(shard.index >= 1 && shard.index <= shard.count, "a part of another chart");
+  };
+  take_lines(bytes, {modes_of, shard_of});
 }
 
 }  // namespace
@@ -284,6 +353,9 @@ const std::vector<FuzzTarget>& fuzz_targets() {
       {"force-record", take_force_record},
       {"given-poles", take_given_poles},
       {"options", take_options},
+      {"pose-options", take_pose_options},
+      {"fit-options", take_fit_options},
+      {"lobe-options", take_lobe_options},
   };
   return targets;
 }

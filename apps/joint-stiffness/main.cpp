@@ -192,11 +192,7 @@ class JointStiffnessTool : public cli::Tool {
     const robot::PlanOptions options{*plan_, repeats_, components_};
     document.plan = robot::plan_measurements(robot, document.candidates, options);
     if (document.expected) add_model_error(robot, options, document);
-    for (int j = 0; j < robot::kJoints; ++j) {
-      if (document.plan.identifiability.visibility[j] != robot::Visibility::kVisible) {
-        warn("joint " + robot.joints[j].name + " cannot be identified from these poses and loads");
-      }
-    }
+    for (const std::string& text : plan_warnings(document, robot)) warn(text);
     write_document(main_output(), document::plan_to_json(document, robot));
   }
 

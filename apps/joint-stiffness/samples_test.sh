@@ -115,6 +115,10 @@ check_jq "a plan" plan.json '(.samples | length) == 6 and .rank == 5 and .std_n_
   (.std_n_m_per_rad[0:5] | all(. > 0))'
 joint-stiffness --robot offset.json --plan 12 --load 500,0,0 --load 0,0,-500 --std-mm 0.01 poses.json -o plan.json
 check_jq "a plan with its own loads" plan.json '([.samples[].force_n] | unique | length) <= 2 and .rank == 6'
+joint-stiffness --robot "$robot" --plan 6 --expected truth.json --std-mm 50 poses.json -o plan.json 2>said
+check "a plan that finds a stiffness to no better than itself says so" test "$(grep -c 'warning: joint A[1-5]: the plan would find its stiffness to [0-9.e+]* % (one' said)" \
+  = "$(jq --slurpfile k truth.json '[[.model_error.std_n_m_per_rad, $k[0].stiffness_n_m_per_rad] | transpose[] | select(.[0] and .[0] > .[1])] | length' plan.json)"
+check_jq "and there are some" plan.json '[[.model_error.std_n_m_per_rad, $k[0].stiffness_n_m_per_rad] | transpose[] | select(.[0] and .[0] > .[1])] | length > 0' --slurpfile k truth.json
 refused 1 'too few measurements: 1 cannot tell the 5 joints apart' joint-stiffness --robot "$robot" --plan 1 --quiet poses.json
 joint-stiffness --robot "$robot" --plan 12 --load-point 150,50,210 --measuring-point 150,50,210 poses.json -o plan.json
 check_jq "a plan with points off the axis sees joint 6" plan.json '.rank == 6 and (.identifiable | all)'
@@ -138,3 +142,7 @@ check_jq "also from a column" huber.json '.outliers[0].name == "r5"'
 jq '.samples[].joints_deg |= map(. * 3.14159265 / 180)' loads.json >radians.json
 joint-stiffness --robot "$robot" radians.json -o found.json 2>.err
 check "angles in radians are noticed" grep -q 'radians.json: .*the joint angles look like radians: the largest is [0-9.]*, expected degrees' .err
+
+# Angles of a plan that look like radians.
+jq '.poses[].joints_deg |= map(. / 57.3)' poses.json | joint-stiffness --robot "$robot" --plan 6 -o plan.json 2>.err
+check "a plan of poses in radians is said" grep -Eq '^joint-stiffness: warning: <stdin>: the joint angles look like radians: the largest is [0-9.]*, expected degrees$' .err

@@ -44,6 +44,17 @@ std::vector<std::string> identification_warnings(const robot::Identification& fo
     warnings.push_back("joint " + robot.joints[j].name +
                        " is not identified: " + document::verdict_text(found.verdict[j]));
   }
+  for (const robot::Verdict verdict :
+       {robot::Verdict::kUnseen, robot::Verdict::kInseparable, robot::Verdict::kUncertain}) {
+    std::string names;
+    for (std::size_t k = robot::kJoints; k < found.springs.size(); ++k) {
+      if (found.verdict[k] == verdict)
+        names += (names.empty() ? "" : ", ") + document::spring_name(found.springs[k], robot);
+    }
+    if (!names.empty())
+      warnings.push_back("springs not identified: " + names + ": " +
+                         document::verdict_text(verdict, found.model));
+  }
   if (!found.deviations_known) {
     warnings.push_back(source +
                        ": as many unknowns as measured values: no standard deviations and no intervals");
@@ -78,6 +89,24 @@ std::string richer_model_text(const robot::Identification& found) {
   return "the model " + name + " predicts poses of other blocks to " +
          number_text(*best->block_rms_m * 1e6, 3) + " um, joints alone to " +
          number_text(*joints->block_rms_m * 1e6, 3) + " um: --model " + name + " uses it";
+}
+
+std::vector<std::string> plan_warnings(const document::PlanDocument& document, const robot::Robot& robot) {
+  std::vector<std::string> warnings;
+  for (int j = 0; j < robot::kJoints; ++j) {
+    if (document.plan.identifiability.visibility[j] != robot::Visibility::kVisible) {
+      warnings.push_back("joint " + robot.joints[j].name +
+                         " cannot be identified from these poses and loads");
+    } else if (document.expected && document.expected->stiffness[j]) {
+      const double share = document.std_with_discrepancy[j] * *document.expected->stiffness[j];
+      if (share > 1)
+        warnings.push_back("joint " + robot.joints[j].name + ": the plan would find its stiffness to " +
+                           percent_text(share) +
+                           " (one standard deviation, model error included): more measurements are needed, "
+                           "or poses and loads that see more of it");
+    }
+  }
+  return warnings;
 }
 
 std::string unit_warning(const document::LoadSamplesDocument& samples, const std::string& source) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "document/kinds/load_samples_json.h"
+#include "document/kinds/measurement_plan_json.h"
 #include "robot/identification.h"
 #include "robot/robot.h"
 
@@ -22,6 +23,10 @@ std::vector<std::string> identification_warnings(const robot::Identification& fo
 /// By how much a richer model predicts blocks of neighbouring poses better than the one with joints alone;
 /// empty where none is chosen.
 std::string richer_model_text(const robot::Identification& found);
+
+/// Warnings of a plan: joints that it does not identify, or whose expected stiffness it finds to no better
+/// than itself.
+std::vector<std::string> plan_warnings(const document::PlanDocument& document, const robot::Robot& robot);
 
 /// A warning where no robot yields as much or as little as the samples say; empty where it may.
 std::string unit_warning(const document::LoadSamplesDocument& samples, const std::string& source);

@@ -115,3 +115,10 @@ with '.frequency_hz = [1e80]' '/frequency_hz: 1e.80: the receptance is not finit
 with '.frequency_hz = [3, 2]' '/frequency_hz/1: 2: expected increasing'
 with '.format = "stablecut/frf/1"' '/format: .*expected "stablecut/assembly/1"'
 check "nothing was written" test ! -e result.json
+
+# A sensor sits on the tip, and other places know nothing of it.
+jq '.sensor_mass_g = 5' "$data/liu-assembly.json" >sensor.json
+refused 65 '^rcsa-couple: sensor.json: /sensor_mass_g: with --positions: expected no sensor on the tip$' rcsa-couple --positions 0,10 sensor.json
+
+jq '.frequency_hz = {from: 1, to: 2, count: 1}' "$data/liu-assembly.json" >point.json
+refused 65 '^rcsa-couple: point.json: /frequency_hz/to: 2: expected the same number as from, since count is 1$' rcsa-couple point.json

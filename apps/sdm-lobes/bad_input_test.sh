@@ -147,3 +147,10 @@ if [ "$(id -u)" -ne 0 ]; then
   touch secret.json; chmod 000 secret.json
   refused 66 '^sdm-lobes: secret.json: cannot be read' sdm-lobes --cut "$cut" secret.json
 fi
+
+jq '.corner_radius_mm = 7' "$data/thesis-cut.json" >corner.json
+refused 65 '^sdm-lobes: corner.json: /corner_radius_mm: 7: expected at most half of diameter_mm$' sdm-lobes "$table" --cut corner.json
+jq '.entry_deg = 0 | .exit_deg = 90' "$data/thesis-cut.json" >twice.json
+refused 65 '^sdm-lobes: twice.json: /radial_immersion: 0.25: expected either radial_immersion with milling or entry_deg' sdm-lobes "$table" --cut twice.json
+sdm-lobes "$table" --cut "$data/thesis-cut.json" --speed 9000:12000:2 --depth 0:4:3 --method sdm --intervals 8 2>said >rough.json
+check "few intervals are said to be too few" grep -Eq '^sdm-lobes: warning: the semi-discretization is off by up to 0\.[0-9]* of max\(1, radius\) \(see /convergence\): more --intervals$' said

@@ -1,9 +1,7 @@
 #include "options.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <string_view>
 
 #include "base/number_text.h"
 #include "base/units.h"
@@ -11,6 +9,7 @@
 #include "document/kinds/modal_table_json.h"
 #include "document/kinds/mode_labels.h"
 #include "document/text/data_error.h"
+#include "lobe_values.h"
 
 namespace stablecut {
 namespace {
@@ -113,15 +112,9 @@ void ModeOptions::declare(CLI::App& app) {
   app.add_option_function<std::string>(
          "--modes",
          [this](const std::string& text) {
-           listed_ = parse_index_list(text);
-           if (listed_) return;
-           for (const std::string_view label : split(text, ',')) labels_.emplace_back(label);
-           // A label that begins with a digit would be an index that was mistyped.
-           if (std::any_of(labels_.begin(), labels_.end(), [](const std::string& label) {
-                 return label.empty() || !std::isalpha(static_cast<unsigned char>(label[0]));
-               }))
-             throw cli::WrongUsage("--modes: " + text +
-                                   ": expected 1-based indices such as 1-7,14-15, or labels such as m1,m3");
+           ModeList list = parse_modes(text);
+           listed_ = std::move(list.indices);
+           labels_ = std::move(list.labels);
          },
          "Use only these modes of the table, by numbers such as 1-7,14-15 or by labels such as m1,m3")
       ->type_name("LIST");
@@ -234,20 +227,10 @@ milling::RunRequest RunOptions::request(const document::CutDocument& cut) const 
 }
 
 std::vector<const CLI::Option*> PartOptions::declare(CLI::App& app) {
-  const CLI::Option* part =
-      app.add_option_function<std::string>(
-             "--shard",
-             [this](const std::string& text) {
-               const auto slash = text.find('/');
-               const auto index = parse_integer(text.substr(0, slash));
-               const auto count =
-                   slash == std::string::npos ? std::nullopt : parse_integer(text.substr(slash + 1));
-               if (!index || !count || *index < 1 || *index > *count)
-                 throw cli::WrongUsage("--shard: " + text + ": expected K/N with 1 <= K <= N");
-               shard = document::Shard{*index, *count, {}};
-             },
-             "Compute only part K of N: every Nth speed from the Kth on")
-          ->type_name("K/N");
+  const CLI::Option* part = app.add_option_function<std::string>(
+                                   "--shard", [this](const std::string& text) { shard = parse_shard(text); },
+                                   "Compute only part K of N: every Nth speed from the Kth on")
+                                ->type_name("K/N");
   const CLI::Option* merged = cli::add_repeated_option(
       app, "--merge", "FILE",
       "Put the chart together: the command of its parts with --merge FILE for each instead of --shard",

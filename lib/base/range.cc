@@ -1,8 +1,9 @@
 #include "base/range.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <set>
+#include <utility>
 
 namespace stablecut {
 namespace {
@@ -51,6 +52,7 @@ std::optional<Range> parse_range(std::string_view text) {
   const auto count = parse_integer(parts[2]);
   if (!from || !to || !count || *count < 1 || *count > kMostInRange) return std::nullopt;
   if (*count == 1 ? *from != *to : !(*from < *to)) return std::nullopt;
+  if (!std::isfinite((*to - *from) * *count)) return std::nullopt;
   return Range{*from, *to, *count};
 }
 
@@ -77,7 +79,7 @@ std::optional<std::array<double, 3>> parse_vector(std::string_view text) {
 
 std::optional<std::vector<int>> parse_index_list(std::string_view text) {
   constexpr int kLargest = 1'000'000;
-  std::set<int> indices;
+  std::vector<std::pair<int, int>> intervals;
   for (const auto part : split(text, ',')) {
     const auto ends = split(part, '-');
     const auto first = parse_integer(ends.front());
@@ -85,9 +87,16 @@ std::optional<std::vector<int>> parse_index_list(std::string_view text) {
     if (ends.size() > 2 || !first || !last || *first < 1 || *last < *first || *last > kLargest) {
       return std::nullopt;
     }
-    for (int i = *first; i <= *last; ++i) indices.insert(i);
+    intervals.emplace_back(*first, *last);
   }
-  return std::vector<int>(indices.begin(), indices.end());
+  // Each index once, however often it is named.
+  std::sort(intervals.begin(), intervals.end());
+  std::vector<int> indices;
+  for (const auto& [first, last] : intervals) {
+    for (int i = std::max(first, indices.empty() ? 1 : indices.back() + 1); i <= last; ++i)
+      indices.push_back(i);
+  }
+  return indices;
 }
 
 }  // namespace stablecut

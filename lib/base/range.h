@@ -35,7 +35,7 @@ std::optional<int> parse_integer(std::string_view text);
 inline constexpr int kMostInRange = 10'000'000;
 
 /// `FROM:TO:COUNT` with finite FROM <= TO and COUNT from 1 to kMostInRange, FROM = TO exactly when COUNT is
-/// 1; else nothing.
+/// 1, and all values finite as `at` forms them; else nothing.
 std::optional<Range> parse_range(std::string_view text);
 
 /// `LO:HI`, finite, LO < HI; else nothing. The count of the result is 2.

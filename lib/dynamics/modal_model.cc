@@ -37,6 +37,20 @@ ModalModel chosen_modes(const ModalModel& model, const std::vector<std::size_t>&
   return chosen;
 }
 
+std::vector<std::size_t> untold_modes(const ModalModel& model) {
+  const auto vector = 2 * static_cast<Eigen::Index>(model.dofs.size());  // real and imaginary parts
+  std::vector<std::size_t> untold;
+  for (std::size_t k = 0; k < model.modes.size(); ++k) {
+    const Mode& mode = model.modes[k];
+    const Eigen::VectorXd deviation = model.deviation(static_cast<Eigen::Index>(k));
+    if (!mode.out_of_band &&
+        (deviation[1] > mode.damping_ratio || deviation.segment(2, vector).norm() > mode.psi_r.norm() ||
+         deviation.tail(vector).norm() > mode.psi_l.norm()))
+      untold.push_back(k);
+  }
+  return untold;
+}
+
 void set_pole(Mode& mode, std::complex<double> lambda) {
   mode.frequency_hz = hz_from_rad_per_s(std::abs(lambda));
   mode.damping_ratio = -lambda.real() / std::abs(lambda);

@@ -42,6 +42,11 @@ struct ModalModel {
 /// These modes of a model, with their part of its covariance.
 ModalModel chosen_modes(const ModalModel& model, const std::vector<std::size_t>& modes);
 
+/// Modes whose damping ratio, or whose psi_r or psi_l as a whole, is smaller than its own standard deviation:
+/// what is said of them tells nothing. Those out of band, which stand for others, are left out. The
+/// covariance must be known.
+std::vector<std::size_t> untold_modes(const ModalModel& model);
+
 /// Frequency (Hz) and damping ratio of a pole with positive imaginary part.
 void set_pole(Mode& mode, std::complex<double> lambda);
 

@@ -29,6 +29,22 @@ TEST_CASE("normalising keeps the residue and fixes scale and phase") {
   CHECK(result.psi_r[1].real() > 0);
 }
 
+TEST_CASE("modes of which their deviations leave nothing are told from others") {
+  ModalModel model;
+  model.dofs = {"x", "y"};
+  for (int k = 0; k < 5; ++k) model.modes.push_back(mode_with({3e-3, 4e-3}, {4e-3, 3e-3}));
+  model.modes[4].out_of_band = true;
+  const Eigen::Index own = model.parameters_per_mode();
+  Eigen::VectorXd deviation = Eigen::VectorXd::Zero(5 * own);
+  deviation[1] = 0.0199;  // of a damping of 0.02
+  deviation[own + 1] = 0.0201;
+  deviation.segment(2 * own + 2, 4).setConstant(2.4e-3);  // together less than psi_r, 5e-3
+  deviation.segment(3 * own + 6, 4).setConstant(2.6e-3);  // more than psi_l
+  deviation.segment(4 * own, own).setConstant(1);
+  model.covariance = deviation.cwiseAbs2().asDiagonal();
+  CHECK(untold_modes(model) == std::vector<std::size_t>{1, 3});
+}
+
 TEST_CASE("a symmetric mode has equal vectors") {
   const Eigen::Vector2cd psi(Complex(0.1, 0.02), Complex(-0.4, 0.3));
   const Mode result = normalised(mode_with(psi * Complex(0, 7), psi / Complex(2, 1)));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct SimulationRequest {
 struct SimulationResult {
   SimulatedGrowth growth;
   bool stable() const { return growth.per_tooth < 1; }
+  /// The growth's error leaves open on which side of 1 it is.
+  bool is_open() const { return !(std::abs(growth.per_tooth - 1) > growth.error * growth.per_tooth); }
 
   /// The motion that repeats while teeth are in contact as those of a rigid tool are is one of this cut. Else
   /// it would leave a tooth without its chip, or give one to a tooth that has none, and the growth says

@@ -61,6 +61,21 @@ RandomCut random_cut(int n, int kind, std::mt19937_64& generator) {
 
 }  // namespace
 
+TEST_CASE("a growth nearer to 1 than its error leaves the verdict open") {
+  const auto open = [](double per_tooth, double error) {
+    SimulationResult result;
+    result.growth.per_tooth = per_tooth;
+    result.growth.error = error;
+    return result.is_open();
+  };
+  CHECK(open(1.001, 2e-3));
+  CHECK(open(0.999, 2e-3));
+  CHECK(open(1, 0));
+  CHECK_FALSE(open(1.01, 2e-3));
+  CHECK_FALSE(open(0.99, 2e-3));
+  CHECK_FALSE(open(2, 0.4));
+}
+
 TEST_CASE("simulated deviations grow as the spectral radius says", "[campaign]") {
   std::mt19937_64 generator(7);
   int cuts = 0, far = 0, agree = 0;

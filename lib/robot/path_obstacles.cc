@@ -48,9 +48,15 @@ Overspeed overspeed(const StepLimit& limit, const JointAngles& from, const Joint
   return worst;
 }
 
+// The ladders of all points on which steps are looked at: that of the point before, and of the point itself.
+struct LookLadders {
+  Ladder before, here;
+};
+
 // The slowest step from any pose that is allowed before a point to one that is allowed there.
-Overspeed slowest_step(const PathModel& model, const StepLimit& limit, std::size_t point) {
-  const Ladder before = model.whole_ladder(kLookStep), here = model.whole_ladder(kWorstStep);
+Overspeed slowest_step(const PathModel& model, const LookLadders& ladders, const StepLimit& limit,
+                       std::size_t point) {
+  const auto& [before, here] = ladders;
   PointRungs from, to;
   model.fill(before, point - 1, kAllBranches, from);
   model.fill(here, point, kAllBranches, to);
@@ -73,10 +79,10 @@ Overspeed slowest_step(const PathModel& model, const StepLimit& limit, std::size
 }
 
 // Why the motion of `part` does not lead on to the next point.
-PathObstacle obstacle_between(const PathModel& model, const StepLimit& limit, const PathPart& part,
-                              std::size_t next) {
+PathObstacle obstacle_between(const PathModel& model, const LookLadders& ladders, const StepLimit& limit,
+                              const PathPart& part, std::size_t next) {
   PathObstacle obstacle{part.last(), next, true, false, {}};
-  Overspeed slowest = slowest_step(model, limit, next);
+  Overspeed slowest = slowest_step(model, ladders, limit, next);
   if (!(slowest.factor > 1)) {
     // Single poses would lead on: it is the motion up to here that does not.
     slowest = {};
@@ -135,16 +141,16 @@ std::vector<PathObstacle> path_obstacles(const PathModel& model, const std::vect
     if (p < parts.size() && begin > 0 && begin == next) gaps.push_back({begin - 1, begin, true, false, {}});
     if (p < parts.size()) next = parts[p].last() + 1;
   }
-  const Ladder ladder = model.whole_ladder(kLookStep);
+  const LookLadders ladders{model.whole_ladder(kLookStep), model.whole_ladder(kWorstStep)};
   parallel_for(gaps.size(), threads, [&](std::size_t g) {
     PathObstacle& gap = gaps[g];
     if (!gap.between) {
-      gap.fault = fault_of_point(model, ladder, gap.first);
+      gap.fault = fault_of_point(model, ladders.before, gap.first);
       return;
     }
-    const auto part =
-        std::find_if(parts.begin(), parts.end(), [&](const PathPart& p) { return p.last() == gap.first; });
-    gap = obstacle_between(model, limits[gap.last], *part, gap.last);
+    const auto part = std::lower_bound(parts.begin(), parts.end(), gap.first,
+                                       [](const PathPart& p, std::size_t last) { return p.last() < last; });
+    gap = obstacle_between(model, ladders, limits[gap.last], *part, gap.last);
   });
   std::vector<PathObstacle> obstacles;
   for (const PathObstacle& gap : gaps) add(obstacles, gap);

@@ -29,6 +29,7 @@ constexpr double kLeastRampStep = kPi / 180'000;
 constexpr double kRampStep = kPi / 360;
 constexpr double kRampShare = 0.25;  // of what the slowest joint turns between two points
 constexpr int kMostRampRungs = 60;
+constexpr double kLadderShare = 0.95;  // of the time that a motion takes, for the bar
 
 // A motion through a stretch and what it is worth.
 struct Found {
@@ -46,6 +47,7 @@ class Search {
         limits_(model.step_limits()),
         whole_(model.whole_ladder(kLadderStep)),
         known_(model.size(), whole_.rungs) {
+    near_.base.resize(model_.size());
     if (mean_) mean_cost_ = typical_cost();
     set_stairs();
   }
@@ -86,6 +88,11 @@ class Search {
     Progress part;
     if (progress_) part = [this, from, to = done_](double at) { progress_(from + (to - from) * at); };
     return {model_, ladder, limits, kAllBranches, threads_, part, &ladder == &whole_ ? &known_ : nullptr};
+  }
+
+  // What the search through these points takes of what is left to do, in the order of the path.
+  double share_of(std::size_t first, std::size_t last) const {
+    return kLadderShare * static_cast<double>(last - first + 1) / static_cast<double>(model_.size() - first);
   }
 
   // Where points are so near that no joint can turn by a rung between them: stairs of several points, between
@@ -155,9 +162,12 @@ class Search {
     ChainWeights weights{mean_cost_, kMeanSmoothness};
     double largest = 0;
     if (!mean_) {
+      const Progress whole = task.progress;
+      if (whole) task.progress = [whole](double at) { whole(at / 2); };
       const auto through = path_through(task, first, last, most_cost);
       if (!through) return std::nullopt;
       largest = through->best();
+      if (whole) task.progress = [whole](double at) { whole((1 + at) / 2); };
       weights = {largest, kTieSmoothness, largest * (1 + kCostRounding)};
       task.branches = best_branches(*through);
     }
@@ -170,24 +180,25 @@ class Search {
   // through.
   std::optional<Found> around(std::size_t first, int branch, const std::vector<double>& turn, double step,
                               int rungs) {
-    Ladder ladder;
-    ladder.base.assign(model_.size(), 0);
-    for (std::size_t i = 0; i < turn.size(); ++i) ladder.base[first + i] = turn[i] - rungs * step;
-    ladder.step = step;
-    ladder.rungs = 2 * rungs + 1;
-    ChainTask task = chain_task(ladder, limits_, 0);
+    for (std::size_t i = 0; i < turn.size(); ++i) near_.base[first + i] = turn[i] - rungs * step;
+    near_.step = step;
+    near_.rungs = 2 * rungs + 1;
+    ChainTask task = chain_task(near_, limits_, 0);
     task.progress = nullptr;
     task.branches = 1U << branch;
     return best_of(task, first, first + turn.size() - 1);
   }
 
   std::optional<Found> from_ladder(std::size_t first, std::size_t last, double most_cost) {
-    auto found = best_of(chain_task(whole_, limits_, 0.5), first, last, most_cost);
-    return found ? std::optional(refined(first, std::move(*found))) : std::nullopt;
+    const double before = done_;
+    auto found = best_of(chain_task(whole_, limits_, share_of(first, last)), first, last, most_cost);
+    if (found) return refined(first, std::move(*found));
+    done_ = before;  // it ended where the motion does
+    return std::nullopt;
   }
 
   std::optional<Found> from_stairs(std::size_t first, std::size_t last) {
-    const auto stairs = best_of(chain_task(whole_, stair_limits_, 0.5), first, last);
+    const auto stairs = best_of(chain_task(whole_, stair_limits_, share_of(first, last) / 2), first, last);
     if (!stairs) return std::nullopt;
     // Finer than the joints' steps, so that the motion may be slower than the ramps where the path needs
     // speed.
@@ -267,6 +278,7 @@ class Search {
   const std::vector<StepLimit> limits_;
   const Ladder whole_;
   RungCosts known_;  // of whole_
+  Ladder near_;      // about a known motion; its base holds at the points of that motion
   std::vector<StepLimit> stair_limits_;
   std::vector<std::size_t>
       stair_ends_;         // the points that the stairs begin with, but the first; empty: none needed

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <functional>
 
@@ -70,6 +71,19 @@ TEST_CASE("paths are not worse than brute force in steps of a degree") {
   const double brute = brute_force_objective(cell.robot, task, 60);
   REQUIRE(std::isfinite(brute));
   CHECK(search.parts[0].objective <= brute * (1 + 1e-3));
+}
+
+TEST_CASE("what is said of the progress never goes back, and ends with all") {
+  const PathCell cell = path_cells()[0];
+  const bool mean = GENERATE(false, true);
+  PathTask task = path_task(cell, line_path(cell, 200, 1), "deflection");
+  task.mean_objective = mean;
+  std::vector<double> shares;
+  search_path(PathModel(cell.robot, task), 1, [&](double share) { shares.push_back(share); });
+  REQUIRE(shares.size() > 3);
+  CHECK(std::is_sorted(shares.begin(), shares.end()));
+  CHECK(shares.front() >= 0);
+  CHECK(shares.back() == 1);
 }
 
 TEST_CASE("a point of a path costs what the report of its pose says, whatever yields") {

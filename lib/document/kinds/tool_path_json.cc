@@ -38,7 +38,8 @@ ToolPathDocument tool_path_from_json(const Json& document, const Source& source,
   robot::ToolPath path;
   const auto points = root.at("points").items(1);
   if (points.size() > kMostPathPoints)
-    root.at("points").fail("expected at most " + std::to_string(kMostPathPoints) + " points");
+    root.at("points").fail("expected at most " + std::to_string(kMostPathPoints) +
+                           " points (divide the path)");
   for (const Node& item : points) {
     item.check_names({"position_mm", "axis", "feed", "speed_mm_per_s"});
     robot::ToolPathPoint point;
@@ -46,7 +47,7 @@ ToolPathDocument tool_path_from_json(const Json& document, const Source& source,
     point.axis = direction_from(item.at("axis"));
     if (const auto feed = item.find("feed")) point.feed = direction_from(*feed);
     const auto own = item.find("speed_mm_per_s");
-    if (!own && !speed) item.fail("expected speed_mm_per_s here or beside points");
+    if (!own && !speed) item.fail("expected speed_mm_per_s here or beside points (divide the path)");
     point.speed = own ? own->number(kSpeed) * 1e-3 : *speed;
     path.push_back(point);
   }

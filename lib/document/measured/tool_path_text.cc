@@ -43,7 +43,8 @@ class PathPoints {
     if (std::isnan(speed)) fail(source_, line, "", "expected a speed in the file or from the command");
     if (!(speed > 0 && speed <= kFastest)) fail(source_, line, "", "expected a speed above 0");
     if (path_.size() >= kMostPathPoints)
-      fail(source_, line, "", "expected at most " + std::to_string(kMostPathPoints) + " points");
+      fail(source_, line, "",
+           "expected at most " + std::to_string(kMostPathPoints) + " points (divide the path)");
     path_.push_back({position, axis.stableNormalized(), feed, speed});
     if (feed) path_.back().feed = feed->stableNormalized();
   }
