@@ -19,6 +19,7 @@
 #include "keep_out_options.h"
 #include "load_options.h"
 #include "path_mode.h"
+#include "pose_values.h"
 #include "search_task.h"
 #include "words.h"
 
@@ -26,8 +27,6 @@ namespace stablecut {
 namespace {
 
 constexpr int kDefaultAlternatives = 5;
-
-constexpr double kFarthestToolMm = 1e6;  // as in a robot document
 
 class BestPose : public cli::Tool {
  public:
@@ -104,12 +103,7 @@ class BestPose : public cli::Tool {
     if (!along_.given()) document.plane = search_plane(where_);
     const document::Input robot_input = read_input(robot_path_, cli::InputForm::kJson);
     robot::Robot robot = document::robot_from_json(robot_input.document, robot_input.source);
-    if (tool_point_mm_) {
-      const Eigen::Vector3d point_mm(tool_point_mm_->data());
-      cli::refuse_if(point_mm.cwiseAbs().maxCoeff() > kFarthestToolMm,
-                     "--tool-point: expected lengths in mm up to 1e6");
-      robot.tool.translation() = point_mm * 1e-3;
-    }
+    if (tool_point_mm_) robot.tool.translation() = tool_point_m(*tool_point_mm_);
     apply(keep_out_, robot);
     const document::Input input = read_main_input(cli::InputForm::kJson);
     const robot::JointStiffness joints =

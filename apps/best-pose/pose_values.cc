@@ -1,5 +1,6 @@
 #include "pose_values.h"
 
+#include <cmath>
 #include <string_view>
 #include <vector>
 
@@ -11,9 +12,19 @@ namespace stablecut {
 namespace {
 
 constexpr int kMostPlaces = 100'000;
+constexpr double kFarthestToolMm = 1e6;       // as in a robot document
 constexpr double kDefaultJointSpeedDeg = 60;  // deg/s, of a joint whose speed nobody says
 
 }  // namespace
+
+Eigen::Vector3d tool_point_m(const std::array<double, 3>& point_mm) {
+  Eigen::Vector3d point;
+  for (Eigen::Index d = 0; d < 3; ++d) {
+    cli::refuse_if(std::abs(point_mm[d]) > kFarthestToolMm, "--tool-point: expected lengths in mm up to 1e6");
+    point[d] = metres_from_mm(point_mm[d]);
+  }
+  return point;
+}
 
 robot::Box parse_box(const std::string& text) {
   const auto fields = split(text, ',');

@@ -29,14 +29,17 @@ TEST_CASE("what a tap shows about itself, in words") {
         "Hxy: the same value on every line: a dead channel; modes that follow from it are not measured");
   check({.kind = TapFindingKind::kNothingButNoise, .entry = kYx},
         "Hyx: nothing but noise: a dead channel, or uncoupled directions; left out of the fit");
-  check({.kind = TapFindingKind::kDrift, .entry = kXx, .hi_hz = 65.4},
+  check({.kind = TapFindingKind::kDrift, .entry = kXx, .lo_hz = 65.4, .hi_hz = 70},
         "below 65.4 Hz Hxx rises towards 0 Hz with an imaginary part above 0, as no structure does: "
         "integrated drift of the sensor; left out of the fit, with any modes that it has (--band says "
         "otherwise)");
-  check({.kind = TapFindingKind::kDrift, .entry = kXx, .hi_hz = 65.4},
+  check({.kind = TapFindingKind::kDrift, .entry = kXx, .lo_hz = 65.4, .hi_hz = 70},
         "below 65.4 Hz Hxx rises towards 0 Hz with an imaginary part above 0, as no structure does: "
         "integrated drift of the sensor; modes found there are not the structure's",
         true);
+  check({.kind = TapFindingKind::kDrift, .entry = kXx, .hi_hz = 18.5},
+        "below 18.5 Hz Hxx rises towards 0 Hz within 10 dB of its noise or beyond it, as no structure does: "
+        "integrated noise or drift of the sensor; modes there may be missing, or be none of the structure");
   check({.kind = TapFindingKind::kNoiseAtLowEnd, .entry = kXx, .hi_hz = 18.5},
         "below 18.5 Hz Hxx is within 10 dB of its noise: modes there may be missing in the table, and then "
         "limit "

@@ -25,7 +25,7 @@ constexpr int kSections = 12;               // of the interval of a delay
 constexpr Eigen::Index kPhaseLines = 1000;  // of which phases are looked at, or a few more
 // Mean square of the energy that a driving point seems to give, as a sine of the phase, that is conspicuous,
 // and what a common delay may leave more than delays of each.
-constexpr double kGivenEnergy = 0.01;
+constexpr double kGivenEnergy = 0.003;
 // Mean cosine between mirrored entries that is conspicuous, and what a delay must make better.
 constexpr double kOutOfPhase = 0.985, kMoreInPhase = 0.02;
 constexpr Eigen::Index kLeastLines = 20;  // clear of noise, or phases tell nothing

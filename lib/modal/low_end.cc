@@ -26,6 +26,29 @@ bool gives_energy(const Channel& channel, const WindowSummary& window) {
   return positive > kPositiveShare + kStandingOut * deviation;
 }
 
+// Noise, or no driving point's.
+bool tells_nothing(const Channel& channel, const WindowSummary& window) {
+  const double positive = channel.swapped ? -window.imaginary : window.imaginary;
+  return window.noise > kNoiseShare || (channel.driving_point && positive > kPositiveShare);
+}
+
+// How far (Hz) a drift reaches that the first `ruined` windows show; 0 where |H| does not fall over them.
+double reach_of(const std::vector<WindowSummary>& windows, std::size_t ruined) {
+  if (ruined == 0 || ruined == windows.size()) return 0;
+  if (windows[0].size < kDriftRise * windows[ruined].size) return 0;
+  // As an acceleration the drift is even: the most of the last octave, as drift and stiffness may cancel at
+  // its end. What is noise there weighs little by itself.
+  double square = 0;
+  for (std::size_t i = 0; i < ruined; ++i) {
+    if (2 * windows[i].lo_hz > windows[ruined - 1].hi_hz && windows[i].noise < kNoiseShare)
+      square = std::max(square, windows[i].size * windows[i].lo_hz * windows[i].hi_hz);
+  }
+  while (ruined + 1 < windows.size() &&
+         square > kDriftShare * windows[ruined].size * std::pow(windows[ruined].lo_hz, 2))
+    ++ruined;
+  return windows[ruined - 1].hi_hz;
+}
+
 }  // namespace
 
 double first_rise_hz(const Eigen::VectorXd& hz, const Channel& channel) {
@@ -43,25 +66,15 @@ double first_rise_hz(const Eigen::VectorXd& hz, const Channel& channel) {
   return std::numeric_limits<double>::infinity();
 }
 
-std::optional<double> ruined_up_to(const Eigen::VectorXd& hz, const Channel& channel, double risen_hz) {
-  const std::vector<WindowSummary>& windows = channel.windows;
-  std::size_t ruined = 0;
-  for (std::size_t i = 0; i < windows.size() && windows[i].hi_hz < risen_hz; ++i)
-    if (gives_energy(channel, windows[i])) ruined = i + 1;
-  if (ruined == 0 || ruined == windows.size()) return std::nullopt;
-  if (windows[0].size < kDriftRise * windows[ruined].size) return std::nullopt;
-  // As an acceleration the drift is even: the most of the last octave, as drift and stiffness may cancel at
-  // its end. What is noise there weighs little by itself.
-  double square = 0;
-  for (std::size_t i = 0; i < ruined; ++i) {
-    if (2 * windows[i].lo_hz > windows[ruined - 1].hi_hz && windows[i].noise < kNoiseShare)
-      square = std::max(square, windows[i].size * windows[i].lo_hz * windows[i].hi_hz);
+std::optional<LowEnd> low_end_of(const Eigen::VectorXd& hz, const Channel& channel, double risen_hz) {
+  std::size_t doubtful = 0, ruined = 0;
+  for (std::size_t i = 0; i < channel.windows.size() && channel.windows[i].hi_hz < risen_hz; ++i) {
+    if (tells_nothing(channel, channel.windows[i])) doubtful = i + 1;
+    if (gives_energy(channel, channel.windows[i])) ruined = i + 1;
   }
-  while (ruined + 1 < windows.size() &&
-         square > kDriftShare * windows[ruined].size * std::pow(windows[ruined].lo_hz, 2))
-    ++ruined;
-  const double up_to = windows[ruined - 1].hi_hz;
-  return kDriftReach * up_to <= hz[hz.size() - 1] ? std::optional(up_to) : std::nullopt;
+  const LowEnd end{reach_of(channel.windows, doubtful), reach_of(channel.windows, ruined)};
+  if (end.doubtful_hz == 0 || kDriftReach * end.doubtful_hz > hz[hz.size() - 1]) return std::nullopt;
+  return end;
 }
 
 }  // namespace stablecut::modal

@@ -12,10 +12,15 @@ namespace stablecut::modal {
 /// taking energy, as no drift does; infinite where it never does. `hz` [lines].
 double first_rise_hz(const Eigen::VectorXd& hz, const Channel& channel);
 
-/// The frequency (Hz) up to which integration has ruined a channel: from 0 Hz on windows that tell nothing
-/// while |H| falls, below `risen_hz`, where some channel shows a mode, and on to where what falls like 1 /
-/// omega^2 is a small share of |H|. Nothing where the low end is sound, or more than the lower third of the
-/// band would go.
-std::optional<double> ruined_up_to(const Eigen::VectorXd& hz, const Channel& channel, double risen_hz);
+/// Up to where a channel's low end is in doubt, Hz.
+struct LowEnd {
+  double doubtful_hz = 0;  ///< noise or drift: windows that tell nothing while |H| falls
+  double ruined_hz = 0;    ///< drift that is proved, 0 if none: by windows that give energy
+};
+
+/// Below `risen_hz`, where some channel shows a mode, and each on to where what falls like 1 / omega^2 is a
+/// small share of |H|. Nothing where the low end is sound, or more than the lower third of the band is in
+/// doubt.
+std::optional<LowEnd> low_end_of(const Eigen::VectorXd& hz, const Channel& channel, double risen_hz);
 
 }  // namespace stablecut::modal

@@ -77,22 +77,26 @@ double check_low_end(const Eigen::VectorXd& hz, const std::vector<Channel>& chan
     if (!channel.dead && channel.driving_point == any_driving)
       risen_hz = std::min(risen_hz, first_rise_hz(hz, channel));
   }
-  EntryName worst;
+  TapFinding worst{.kind = TapFindingKind::kDrift};
   for (const Channel& channel : channels) {
     if (channel.dead || channel.driving_point != any_driving) continue;
-    const std::optional<double> up_to = ruined_up_to(hz, channel, risen_hz);
-    if (!up_to || *up_to <= usable_from) continue;
-    usable_from = *up_to;
-    worst = channel.name();
+    const std::optional<LowEnd> end = low_end_of(hz, channel, risen_hz);
+    if (!end) continue;
+    usable_from = std::max(usable_from, end->ruined_hz);
+    if (std::pair(end->ruined_hz, end->doubtful_hz) <= std::pair(worst.lo_hz, worst.hi_hz)) continue;
+    worst.entry = channel.name();
+    worst.lo_hz = end->ruined_hz;
+    worst.hi_hz = end->doubtful_hz;
   }
-  if (usable_from > 0)
-    findings.push_back({.kind = TapFindingKind::kDrift, .entry = worst, .hi_hz = usable_from});
+  if (worst.hi_hz > 0) findings.push_back(worst);
   return usable_from;
 }
 
 // Modes there are not seen. Below an octave there is little to see.
-void check_low_noise(const std::vector<Channel>& channels, double usable_from_hz, Findings& findings) {
-  TapFinding worst{.kind = TapFindingKind::kNoiseAtLowEnd, .hi_hz = usable_from_hz};
+void check_low_noise(const std::vector<Channel>& channels, Findings& findings) {
+  TapFinding worst{.kind = TapFindingKind::kNoiseAtLowEnd};
+  for (const TapFinding& finding : findings)
+    if (finding.kind == TapFindingKind::kDrift) worst.hi_hz = finding.hi_hz;
   for (const Channel& channel : channels) {
     if (channel.dead || !channel.driving_point) continue;
     std::size_t clear = 0;
@@ -355,7 +359,7 @@ TapReport check_tap(const dynamics::FrequencyResponse& receptance, bool zeros_ar
   check_spacing(hz, report.findings);
   check_dead_channels(receptance, channels, zeros_are_dead, report.findings);
   const double usable_from_hz = report.usable_from_hz = check_low_end(hz, channels, report.findings);
-  check_low_noise(channels, usable_from_hz, report.findings);
+  check_low_noise(channels, report.findings);
   check_high_end(channels, report.findings);
   check_signs(channels, usable_from_hz, report.findings);
   check_mirrors(hz, channels, usable_from_hz, report.findings);

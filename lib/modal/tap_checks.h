@@ -16,12 +16,12 @@ enum class TapFindingKind {
   kZeroEntry,        ///< `entry` is 0 on every line, where that means a dead channel
   kConstantEntry,    ///< `entry` has the same value on every line
   kNothingButNoise,  ///< `entry` is noise in most windows
-  kDrift,            ///< below `hi_hz` `entry` rises towards 0 Hz as no structure does
-  kNoiseAtHighEnd,   ///< above `lo_hz` `entry` is within 10 dB of its noise
-  kNoiseAtLowEnd,    ///< below `hi_hz`, an octave or more above the first line, `entry` is: a driving point,
-                     ///< the worst
-  kLikeVelocity,     ///< `entry`, a driving point: its real part has the sign that its imaginary part should
-                     ///< have
+  kDrift,  ///< below `hi_hz` `entry` rises towards 0 Hz as no structure does; below `lo_hz` it gives energy
+  kNoiseAtHighEnd,  ///< above `lo_hz` `entry` is within 10 dB of its noise
+  kNoiseAtLowEnd,   ///< below `hi_hz`, an octave or more above the first line, `entry` is: a driving point,
+                    ///< the worst
+  kLikeVelocity,    ///< `entry`, a driving point: its real part has the sign that its imaginary part should
+                    ///< have
   /// The imaginary part of `entry`, a driving point, is positive on the share `most` of what counts, and ...
   kPositiveRising,   ///< ... |H| rises with frequency, as an accelerance
   kPositiveFalling,  ///< ... |H| falls more steeply than a receptance does
