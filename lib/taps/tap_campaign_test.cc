@@ -180,7 +180,7 @@ TEST_CASE("a hit's spectrum is the sum of its windowed samples") {
   REQUIRE(search.hits.size() == 1);
   const Hit& hit = search.hits[0];
   const Eigen::Index length = 1500;
-  const HitSpectrum spectrum = hit_spectrum(record, hit, length, 40, 0, 0, {7, false});
+  const HitSpectrum spectrum = hit_spectrum(record, hit, length, 40, 0, 0, {7});
   for (const Eigen::Index line : {1, 2, 17, 40}) {
     Complex force = 0, response = 0;
     for (Eigen::Index i = 0; i < length; ++i) {
