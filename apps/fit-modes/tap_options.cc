@@ -46,9 +46,10 @@ void TapOptions::declare(CLI::App& app) {
   cli::add_number_option(app, "--trigger", trigger_n_,
                          "Force at which a hit begins, N (default: above the noise)", "a force above 0 N",
                          is_positive);
-  cli::add_number_option(app, "--pre-trigger", pre_trigger_s_,
-                         "What is taken before a hit, s (default: two widths of its pulse)",
-                         "a time in s, not below 0", is_not_negative);
+  cli::add_number_option(
+      app, "--pre-trigger", pre_trigger_s_,
+      "What is taken before a hit, s (default: two widths of its pulse, 32 samples at least)",
+      "a time in s, not below 0", is_not_negative);
   cli::add_number_option(app, "--tap-length", length_s_,
                          "What is taken of each hit, s (default: as much as most leave)", "a time above 0 s",
                          is_positive);

@@ -19,7 +19,7 @@ struct FrequencyResponseEntry {
   Eigen::VectorXcd h;              ///< [lines]
   Eigen::VectorXd variance;        ///< [lines] E|error|^2 of the complex value, both parts; empty: unknown
   Eigen::VectorXd coherence;       ///< [lines] 0..1; empty: unknown
-  std::optional<double> averages;  ///< number behind the coherence, where known
+  std::optional<double> averages;  ///< number behind the coherence and the variance, where known
   std::optional<double> response_position_m;   ///< distance from the tip
   std::optional<double> reference_position_m;  ///< distance from the tip
 

@@ -80,14 +80,14 @@ std::vector<std::string> group_directions(const dynamics::FrequencyResponse& mea
   return names;
 }
 
-// Known variances of the group's curves; empty when any is unknown.
+// Known variances of the group's curves, those of few averages pooled over lines; empty when any is unknown.
 CurveVariances known_variances(const dynamics::FrequencyResponse& measured, const DirectionGroup& group) {
   CurveVariances result;
   for (const std::size_t e : group.entries) {
     const auto& entry = measured.entries[e];
     Eigen::VectorXd variance = dynamics::known_variance(entry);
     if (variance.size() == 0) return {};
-    if (entry.variance.size() == 0) {
+    if (entry.averages) {
       variance = dynamics::pooled_variance(variance, std::max(*entry.averages - 1, 1.0), entry.h.cwiseAbs(),
                                            dynamics::floor_shapes(measured.frequency_hz));
     }

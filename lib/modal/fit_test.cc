@@ -241,6 +241,23 @@ TEST_CASE("a variance that is much too small is not believed") {
   CHECK(fit.findings[0].kind == FitFindingKind::kVarianceTooSmall);
 }
 
+TEST_CASE("variances that come from the spread of two hits are believed") {
+  const dynamics::ModalModel truth = fixtures::close_pair();
+  dynamics::FrequencyResponse measured = dynamics::synthesize(truth, kLines);
+  dynamics::add_noise(measured, {{}, 40.0, 3});
+  std::mt19937_64 generator(8);
+  for (auto& entry : measured.entries) {
+    entry.averages = 2;
+    for (double& variance : entry.variance) variance *= std::norm(numerics::unit_complex_normal(generator));
+  }
+  const ModalFit fit = fit_modes(measured);
+  CHECK(fit.model.modes.size() == truth.modes.size());
+  CHECK(fit.variance_given);
+  CHECK(fit.findings.empty());
+  // 8192 complex values, weighted by variances of 31 each: 1 + 1 / 30.
+  CHECK(fit.reduced_chi_square == Approx(1 + 1.0 / 30).margin(0.05));
+}
+
 TEST_CASE("equal numbers in x and y are fitted once, to the same as each alone") {
   dynamics::FrequencyResponse measured = dynamics::synthesize(fixtures::close_pair(), kLines);
   dynamics::add_noise(measured, {{}, 40.0, 9});

@@ -108,7 +108,7 @@ Index lines_with_force(const std::vector<HitSpectrum>& hits) {
   double noise = 0;
   for (const HitSpectrum& hit : hits) {
     square += hit.force.array().abs2();
-    noise += hit.force_noise_square;
+    noise += hit.open_noise_square;
   }
   const double least = std::max(kLeastForceOverNoise * noise, kLeastForce * square.maxCoeff());
   Index count = 0;

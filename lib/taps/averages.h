@@ -26,8 +26,9 @@ struct AveragedColumn {
 /// From at least one hit; all have the same channels and lines.
 AveragedColumn average(const std::vector<HitSpectrum>& hits, Estimator estimator);
 
-/// Number of lines, from the first on, on which the hits' mean force stands out: |F|^2 is at least
-/// ten times that of its noise and 1e-6 of its largest.
+/// Number of lines, from the first on, on which the hits' mean force stands out: |F|^2 is at least ten times
+/// that of the noise without a force window (which takes noise away, and no force comes for it) and 1e-6 of
+/// its largest.
 Eigen::Index lines_with_force(const std::vector<HitSpectrum>& hits);
 
 }  // namespace stablecut::taps

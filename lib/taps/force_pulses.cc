@@ -14,6 +14,7 @@ constexpr double kMadOfNormal = 0.6745;  // median of the size of a normal numbe
 constexpr double kOtherSide = 2;         // trigger level over the largest excursion to the other side
 constexpr double kLeastPulse = 1e-3;     // of the largest: below, a second blow changes nothing that matters
 constexpr double kMostLevel = 0.5;       // of the largest: that one is always found
+constexpr Eigen::Index kFilterRings = 16;  // samples, twice: then a converter's filter rings above all lines
 
 double median_of(const Eigen::VectorXd& values) {
   return numerics::median(std::vector<double>(values.begin(), values.end()));
@@ -25,6 +26,8 @@ double highest_of_noise(Eigen::Index samples) {
 }
 
 }  // namespace
+
+Eigen::Index Pulse::reach() const { return std::max(width(), kFilterRings); }
 
 ForcePulses force_pulses(const Eigen::VectorXd& force, double level_n) {
   ForcePulses result;

@@ -14,6 +14,10 @@ struct Pulse {
   double force_n = 0;             ///< there, with its sign, offset taken off
 
   Eigen::Index width() const { return to - from; }
+
+  /// Samples on either side within which what the channel shows is the pulse's own: its edges, and what the
+  /// filter in front of a converter rings.
+  Eigen::Index reach() const;
 };
 
 struct ForcePulses {

@@ -8,10 +8,10 @@
 namespace stablecut::taps {
 namespace {
 
-constexpr double kWeakShare = 0.2;      // of the others' force: 1/25 of their weight in an average
-constexpr double kDoubleShare = 0.5;    // of the length: a second blow that comes sooner is part of the hit
-constexpr double kDeliberate = 0.2;     // s: nobody strikes twice on purpose within
-constexpr Eigen::Index kPreWidths = 2;  // pulse widths before a pulse: what the force window keeps
+constexpr double kWeakShare = 0.2;       // of the others' force: 1/25 of their weight in an average
+constexpr double kDoubleShare = 0.5;     // of the length: a second blow that comes sooner is part of the hit
+constexpr double kDeliberate = 0.2;      // s: nobody strikes twice on purpose within
+constexpr Eigen::Index kPreReaches = 2;  // of a pulse, before it: what the force window keeps
 
 using Index = Eigen::Index;
 
@@ -20,7 +20,7 @@ struct Candidate {
   std::size_t record;
   Pulse pulse;
   Index from;  // of its part
-  Index room;  // samples until the next pulse, or the record's end
+  Index room;  // samples until the next pulse and what filters ring before it, or the record's end
 };
 
 std::vector<Candidate> candidates_of(const std::vector<Record>& records,
@@ -32,10 +32,11 @@ std::vector<Candidate> candidates_of(const std::vector<Record>& records,
       const Index wanted =
           choice.pre_trigger_s
               ? static_cast<Index>(std::lround(*choice.pre_trigger_s * records[r].sample_rate_hz))
-              : kPreWidths * pulses[p].width();
+              : kPreReaches * pulses[p].reach();
       const Index before = p == 0 ? 0 : pulses[p - 1].to;
       const Index from = std::max(before, pulses[p].from - wanted);
-      const Index next = p + 1 < pulses.size() ? pulses[p + 1].from : records[r].samples();
+      const Index next = p + 1 < pulses.size() ? pulses[p + 1].from - kPreReaches * pulses[p + 1].reach()
+                                               : records[r].samples();
       candidates.push_back({r, pulses[p], from, next - from});
     }
   }

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "taps/exponential_window.h"
+#include "taps/force_disturbance.h"
 
 namespace stablecut::taps {
 namespace {
@@ -98,16 +99,18 @@ TapCampaign responses_of(const std::vector<TapColumn>& columns, dynamics::Quanti
     length = searches[c].length;
   }
   length = transform_length(length);
-  Windows windows{choice.decay_per_s.value_or(0), choice.force_window.value_or(false)};
+  Index lines = static_cast<Index>(std::floor(kHighestLine * static_cast<double>(length)));
+  campaign.force_window = choice.force_window.value_or(false);
   for (std::size_t c = 0; c < columns.size() && !choice.force_window; ++c)
-    windows.force_window = windows.force_window || force_disturbed(columns[c].records, searches[c], length);
-  campaign.force_window = windows.force_window;
+    campaign.force_window =
+        campaign.force_window || force_disturbed(columns[c].records, searches[c], length, lines);
+  Windows windows{choice.decay_per_s.value_or(0),
+                  campaign.force_window ? ForceWindow::kPulse : ForceWindow::kNone};
   if (!choice.decay_per_s) {
     for (std::size_t c = 0; c < columns.size(); ++c)
       windows.decay_per_s =
           std::max(windows.decay_per_s, needed_decay(columns[c].records, used_of(searches[c]), length));
   }
-  Index lines = static_cast<Index>(std::floor(kHighestLine * static_cast<double>(length)));
   std::vector<std::vector<HitSpectrum>> spectra;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     spectra.push_back(spectra_of(columns[c], searches[c], length, lines, windows));

@@ -5,7 +5,6 @@
 #include <complex>
 
 #include "base/error.h"
-#include "taps/exponential_window.h"
 #include "taps/hit_spectra.h"
 #include "taps/tap_fixtures_test.h"
 
@@ -56,49 +55,6 @@ TEST_CASE("the damping of the exponential window is taken off to rounding") {
   const Complex s(30, kTwoPi * receptance.frequency_hz[80]);
   CHECK(std::abs(receptance.entries[0].h[80] / dynamics::receptance_at(fixtures::structure(), s)(0, 0) -
                  1.0) < 1e-9);
-}
-
-TEST_CASE("a window is laid over records that still ring, and over no others") {
-  // 82 Hz with 2 %: e^-10 a second.
-  const auto search = [](const Record& record) { return find_hits({record}); };
-  std::mt19937_64 generator(4);
-  Record ringing = exact_record({{0.05, 80}}, 0.45, 0), still = exact_record({{0.05, 80}}, 2.05, 0);
-  for (Record* record : {&ringing, &still}) {
-    for (auto& response : record->responses) fixtures::add_noise(response, 0.02, generator);
-  }
-  const HitSearch of_ringing = search(ringing), of_still = search(still);
-  CHECK(needed_decay({still}, of_still.hits, of_still.length) == 0);  // e^-20
-  const double decay = needed_decay({ringing}, of_ringing.hits, of_ringing.length);
-  CHECK(decay > 5);
-  CHECK(decay < 60);
-  // With it the average is right to a few deviations of its noise; without it, it is not.
-  const auto worst = [&](std::optional<double> chosen) {
-    TapChoice choice;
-    choice.decay_per_s = chosen;
-    const TapCampaign campaign = responses_of({column_of(ringing)}, dynamics::Quantity::kAccelerance, choice);
-    double error = 0;
-    for (Eigen::Index line = 0; campaign.frf.frequency_hz[line] < 500; ++line) {
-      error = std::max(error, std::abs(campaign.frf.entries[0].h[line] - accelerance(campaign.frf, line, 0)));
-    }
-    return error;
-  };
-  CHECK(worst(std::nullopt) < worst(0.0) / 10);
-}
-
-TEST_CASE("hum is not ringing") {
-  // What the real hit of a tool shows: it has come to rest after a tenth of the record, and hum and slow
-  // noise go on.
-  std::mt19937_64 generator(9);
-  Record record = exact_record({{0.05, 80}}, 2.05, 0);
-  double slow = 0;
-  // Far lower than what rings at first, and still seen in the second block.
-  for (Eigen::Index i = 0; i < record.samples(); ++i) {
-    slow = 0.9 * slow + 0.02 * numerics::unit_normal(generator);
-    for (auto& response : record.responses)
-      response[i] += 0.05 * std::sin(kTwoPi * 50 * static_cast<double>(i) / kRate) + slow;
-  }
-  const HitSearch found = find_hits({record});
-  CHECK(needed_decay({record}, found.hits, found.length) == 0);
 }
 
 TEST_CASE("ten hits with noise on the force and a double hit among them: the spread is that of the errors",
@@ -180,7 +136,7 @@ TEST_CASE("a hit's spectrum is the sum of its windowed samples") {
   REQUIRE(search.hits.size() == 1);
   const Hit& hit = search.hits[0];
   const Eigen::Index length = 1500;
-  const HitSpectrum spectrum = hit_spectrum(record, hit, length, 40, 0, 0, {7, false});
+  const HitSpectrum spectrum = hit_spectrum(record, hit, length, 40, 0, 0, {7});
   for (const Eigen::Index line : {1, 2, 17, 40}) {
     Complex force = 0, response = 0;
     for (Eigen::Index i = 0; i < length; ++i) {
