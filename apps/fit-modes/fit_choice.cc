@@ -77,6 +77,24 @@ dynamics::FrequencyResponse FitChoice::lines_to_fit(const dynamics::FrequencyRes
   return dynamics::without_lines(usable, left_out);
 }
 
+FittedLines FitChoice::fit(const dynamics::FrequencyResponse& measured, modal::TapReport tap,
+                           bool band_chosen, const Progress& progress) const {
+  FittedLines result;
+  const auto run = [&] {
+    result.used = lines_to_fit(measured, tap, band_chosen);
+    result.fit = modal::fit_modes(result.used, options(progress));
+  };
+  run();
+  const auto& findings = result.fit.findings;
+  const bool answers = std::none_of(findings.begin(), findings.end(), [](const modal::FitFinding& finding) {
+    return modal::is_no_answer(finding.kind);
+  });
+  if (answers || band_chosen || tap.doubtful_to_hz <= tap.usable_from_hz) return result;
+  result.left_out_hz = tap.usable_from_hz = tap.doubtful_to_hz;
+  run();
+  return result;
+}
+
 void FitChoice::add_to_report(document::Json& fit) const {
   if (!excluded_.empty()) {
     fit["excluded_hz"] = document::Json::array();

@@ -11,6 +11,14 @@
 
 namespace stablecut {
 
+/// A fit and the lines that it was made of.
+struct FittedLines {
+  dynamics::FrequencyResponse used;
+  modal::ModalFit fit;
+  double left_out_hz =
+      0;  ///< up to here the low end was left out, as there was no answer with it; 0: was not
+};
+
 class FitChoice {
  public:
   /// Declares --window-decay, --modes, --model, --exclude, --poles, --poles-are and --shared-poles; the
@@ -26,16 +34,17 @@ class FitChoice {
   void check() const;
   /// Takes that file's poles. Throws DataError.
   void take_poles(const document::Input& input);
-  modal::FitOptions options(Progress progress) const;
-
-  /// What is fitted: modal::usable_part without the lines of --exclude. Throws InvalidArgument where none is
-  /// left.
-  dynamics::FrequencyResponse lines_to_fit(const dynamics::FrequencyResponse& measured,
-                                           const modal::TapReport& tap, bool band_chosen) const;
+  /// Fits modal::usable_part without the lines of --exclude; unless a band was chosen, without the low end
+  /// that is in doubt where there is no answer with it. Throws InvalidArgument where no line is left.
+  FittedLines fit(const dynamics::FrequencyResponse& measured, modal::TapReport tap, bool band_chosen,
+                  const Progress& progress) const;
   /// What of the choice belongs into the field `fit` of the table.
   void add_to_report(document::Json& fit) const;
 
  private:
+  modal::FitOptions options(Progress progress) const;
+  dynamics::FrequencyResponse lines_to_fit(const dynamics::FrequencyResponse& measured,
+                                           const modal::TapReport& tap, bool band_chosen) const;
   void take_window_decay(const std::string& text);
   void take_modes(const std::string& text);
 

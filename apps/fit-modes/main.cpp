@@ -102,9 +102,12 @@ class FitModes : public cli::Tool {
     const bool band_chosen = measurement_.band_is_chosen();
     for (const modal::TapFinding& finding : tap.findings)
       warn(input_name_ + ": " + words_of(finding, band_chosen));
-    const dynamics::FrequencyResponse used =
-        named([&] { return choice_.lines_to_fit(measured, tap, band_chosen); });
-    const modal::ModalFit result = fitted(used);
+    const FittedLines run = named([&] {
+      cli::ProgressBar bar("fit-modes", !quiet());
+      return choice_.fit(measured, tap, band_chosen, [&](double share) { bar.show(share); });
+    });
+    if (run.left_out_hz > 0) warn(input_name_ + ": " + left_out_text(run.left_out_hz));
+    const modal::ModalFit& result = run.fit;
     for (const modal::FitFinding& finding : result.findings) {
       const std::string text = input_name_ + ": " + words_of(finding);
       if (modal::is_no_answer(finding.kind))
@@ -113,16 +116,9 @@ class FitModes : public cli::Tool {
                                  : Remedy::kNone);
       warn(text);
     }
-    write_table(result, used);
+    write_table(result, run.used);
     if (!fitted_path_.empty()) write_fitted(result, measured);
-    if (!stabilization_path_.empty()) write_stabilization(result, used);
-  }
-
-  modal::ModalFit fitted(const dynamics::FrequencyResponse& measured) const {
-    return named([&] {
-      cli::ProgressBar bar("fit-modes", !quiet());
-      return modal::fit_modes(measured, choice_.options([&](double share) { bar.show(share); }));
-    });
+    if (!stabilization_path_.empty()) write_stabilization(result, run.used);
   }
 
   // Without the damping of the exponential window that `used` went through.

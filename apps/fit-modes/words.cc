@@ -173,6 +173,12 @@ std::string untold_text(const dynamics::ModalModel& table) {
          list + " Hz): these numbers tell nothing by themselves";
 }
 
+std::string left_out_text(double hz) {
+  return "below " + number(hz) +
+         " Hz: left out of the fit, which has no answer with these lines; modes there are missing in the "
+         "table, and limit no chart";
+}
+
 std::string words_of(const modal::FitFinding& finding) {
   switch (finding.kind) {
     case modal::FitFindingKind::kVarianceTooSmall:

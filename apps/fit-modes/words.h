@@ -9,6 +9,9 @@
 
 namespace stablecut {
 
+/// That the low end up to `hz`, which was in doubt, was left out of the fit.
+std::string left_out_text(double hz);
+
 /// `band_chosen`: the user says which lines count, so that none are left out at the low end.
 std::string words_of(const modal::TapFinding& finding, bool band_chosen);
 std::string words_of(const modal::FitFinding& finding);

@@ -123,6 +123,13 @@ TEST_CASE("modes of which nothing is told, in words") {
              Catch::Contains("7 of 7 modes") && Catch::Contains("(100, 200, 300, 400, 500, ... Hz)"));
 }
 
+TEST_CASE("a low end that was left out is said") {
+  CHECK(left_out_text(18.5) ==
+        "below 18.5 Hz: left out of the fit, which has no answer with these lines; modes there are missing "
+        "in the "
+        "table, and limit no chart");
+}
+
 TEST_CASE("what a fit leaves to be known, in words") {
   check({.kind = FitFindingKind::kVarianceTooSmall},
         "the residual is much larger than the given variance: the noise was estimated instead");

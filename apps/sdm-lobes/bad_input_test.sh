@@ -60,7 +60,7 @@ table_with '.dofs = ["z", "w"]' '/dofs: .*expected x, y or both'
 table_with '.dofs = ["x", "x"]' '/dofs/1: "x": expected'
 table_with '.format = "stablecut/frf/1"' '/format: "stablecut/frf/1": expected "stablecut/modal-table/1"'
 refused 65 '^sdm-lobes: <stdin>: empty input' sdm-lobes --cut "$cut" </dev/null
-refused 65 '^sdm-lobes: .*/entry-xx.csv: not a modal table: expected what fit-modes makes of a tap' sdm-lobes --cut "$cut" "$data/taps/entry-xx.csv"
+refused 65 '^sdm-lobes: .*/entry-xx.csv: line 1: not a modal table: expected what fit-modes makes of a tap' sdm-lobes --cut "$cut" "$data/taps/entry-xx.csv"
 head -c 700 "$table" >truncated.json
 refused 65 '^sdm-lobes: truncated.json: line [0-9]+: /modes/.*the document ends here' sdm-lobes --cut "$cut" truncated.json
 sed 's/7.67,/NaN,/' "$table" >nan.json

@@ -170,7 +170,7 @@ document::Input modal_table(document::Input input) {
   if (!input.document.is_null()) return input;
   if (input.source.text.find_first_not_of(" \t\r\n") == std::string::npos)
     throw document::DataError(input.source.name, "", "", "empty input: expected a modal table");
-  throw document::DataError(input.source.name, "", "",
+  throw document::DataError(input.source.name, "line 1", "",
                             "not a modal table: expected what fit-modes makes of a tap");
 }
 

@@ -67,12 +67,12 @@ void check_dead_channels(const dynamics::FrequencyResponse& receptance, const st
   }
 }
 
-// The frequency above which all channels are usable, Hz. Driving points tell most; others count only where
-// there is none.
-double check_low_end(const Eigen::VectorXd& hz, const std::vector<Channel>& channels, Findings& findings) {
+// Up to where channels are of no use, or in doubt. Driving points tell most; others count only where there is
+// none.
+void check_low_end(const Eigen::VectorXd& hz, const std::vector<Channel>& channels, TapReport& report) {
   const bool any_driving = std::any_of(channels.begin(), channels.end(),
                                        [](const Channel& c) { return c.driving_point && !c.dead; });
-  double risen_hz = hz[hz.size() - 1], usable_from = 0;
+  double risen_hz = hz[hz.size() - 1];
   for (const Channel& channel : channels) {
     if (!channel.dead && channel.driving_point == any_driving)
       risen_hz = std::min(risen_hz, first_rise_hz(hz, channel));
@@ -82,14 +82,14 @@ double check_low_end(const Eigen::VectorXd& hz, const std::vector<Channel>& chan
     if (channel.dead || channel.driving_point != any_driving) continue;
     const std::optional<LowEnd> end = low_end_of(hz, channel, risen_hz);
     if (!end) continue;
-    usable_from = std::max(usable_from, end->ruined_hz);
+    report.usable_from_hz = std::max(report.usable_from_hz, end->ruined_hz);
+    report.doubtful_to_hz = std::max(report.doubtful_to_hz, end->doubtful_hz);
     if (std::pair(end->ruined_hz, end->doubtful_hz) <= std::pair(worst.lo_hz, worst.hi_hz)) continue;
     worst.entry = channel.name();
     worst.lo_hz = end->ruined_hz;
     worst.hi_hz = end->doubtful_hz;
   }
-  if (worst.hi_hz > 0) findings.push_back(worst);
-  return usable_from;
+  if (worst.hi_hz > 0) report.findings.push_back(worst);
 }
 
 // Modes there are not seen. Below an octave there is little to see.
@@ -358,7 +358,8 @@ TapReport check_tap(const dynamics::FrequencyResponse& receptance, bool zeros_ar
   const std::vector<Channel> channels = channels_of(receptance);
   check_spacing(hz, report.findings);
   check_dead_channels(receptance, channels, zeros_are_dead, report.findings);
-  const double usable_from_hz = report.usable_from_hz = check_low_end(hz, channels, report.findings);
+  check_low_end(hz, channels, report);
+  const double usable_from_hz = report.usable_from_hz;
   check_low_noise(channels, report.findings);
   check_high_end(channels, report.findings);
   check_signs(channels, usable_from_hz, report.findings);

@@ -54,6 +54,8 @@ struct TapReport {
   std::vector<TapFinding> findings;
   /// The useless low end (kDrift) reaches up to here: a fit should leave it out. 0 where there is none.
   double usable_from_hz = 0;
+  /// Up to here the low end is in doubt (kDrift): to be left out where a fit with it has no answer.
+  double doubtful_to_hz = 0;
   /// Single lines (indices, increasing) on which a value stands out of its neighbours in some entry, as mains
   /// hum makes it: each would become a mode without width, so a fit should leave them out. Empty where there
   /// are so many that something else is behind them.
