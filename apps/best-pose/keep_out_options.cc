@@ -5,6 +5,7 @@
 #include "robot/keep_out.h"
 
 namespace stablecut {
+
 void add_keep_out_options(CLI::App& app, KeepOutOptions& options) {
   cli::add_number_option(
       app, "--keep-out-radius", options.radius_mm,

@@ -15,8 +15,7 @@ namespace stablecut {
 struct FittedLines {
   dynamics::FrequencyResponse used;
   modal::ModalFit fit;
-  double left_out_hz =
-      0;  ///< up to here the low end was left out, as there was no answer with it; 0: was not
+  double left_out_hz = 0;  ///< below, lines were left out, as there was no answer with them; 0: none were
 };
 
 class FitChoice {

@@ -1,7 +1,5 @@
 // fit-modes: frequency responses in, modal table out; or, with --synthesize, the other way.
 
-#include <glog/logging.h>
-
 #include <limits>
 #include <type_traits>
 
@@ -238,8 +236,4 @@ class FitModes : public cli::Tool {
 }  // namespace
 }  // namespace stablecut
 
-int main(int argc, char** argv) {
-  FLAGS_minloglevel =
-      google::GLOG_FATAL;  // Ceres logs to standard error, which belongs to the tool's own lines
-  return stablecut::FitModes().main(argc, argv);
-}
+int main(int argc, char** argv) { return stablecut::FitModes().main(argc, argv); }

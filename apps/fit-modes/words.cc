@@ -108,15 +108,14 @@ std::string words_of(const modal::TapFinding& finding, bool band_chosen) {
       return finding.lo_hz > 0
                  ? "below " + number(finding.lo_hz) + " Hz " + name +
                        " rises towards 0 Hz with an imaginary part above 0, as no structure does: integrated "
-                       "drift "
-                       "of the sensor; " +
+                       "drift of the sensor; " +
                        (band_chosen
                             ? "modes found there are not the structure's"
                             : "left out of the fit, with any modes that it has (--band says otherwise)")
                  : "below " + number(finding.hi_hz) + " Hz " + name +
                        " rises towards 0 Hz within 10 dB of its noise or beyond it, as no structure does: "
-                       "integrated noise or "
-                       "drift of the sensor; modes there may be missing, or be none of the structure";
+                       "integrated noise or drift of the sensor; modes there may be missing, or be none of "
+                       "the structure";
     case modal::TapFindingKind::kNoiseAtLowEnd:
       return "below " + number(finding.hi_hz) + " Hz " + name +
              " is within 10 dB of its noise: modes there may be missing in the table, and then limit no "

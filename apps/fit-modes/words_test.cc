@@ -42,8 +42,7 @@ TEST_CASE("what a tap shows about itself, in words") {
         "integrated noise or drift of the sensor; modes there may be missing, or be none of the structure");
   check({.kind = TapFindingKind::kNoiseAtLowEnd, .entry = kXx, .hi_hz = 18.5},
         "below 18.5 Hz Hxx is within 10 dB of its noise: modes there may be missing in the table, and then "
-        "limit "
-        "no chart");
+        "limit no chart");
   check({.kind = TapFindingKind::kNoiseAtHighEnd, .entry = kXx, .lo_hz = 810},
         "above 810 Hz Hxx is within 10 dB of its noise: these lines add little but computing time (--band)");
   check({.kind = TapFindingKind::kLikeVelocity, .entry = kXx},
@@ -126,8 +125,7 @@ TEST_CASE("modes of which nothing is told, in words") {
 TEST_CASE("a low end that was left out is said") {
   CHECK(left_out_text(18.5) ==
         "below 18.5 Hz: left out of the fit, which has no answer with these lines; modes there are missing "
-        "in the "
-        "table, and limit no chart");
+        "in the table, and limit no chart");
 }
 
 TEST_CASE("what a fit leaves to be known, in words") {

@@ -390,9 +390,9 @@ TEST_CASE("cross entries alone share their modes") {
 
 namespace {
 
-// Two directions, 0.5 to 3000 Hz: robot and tool modes with that share of their damping hysteretic, and white
-// noise of the acceleration 50 dB below its mean: at 0.5 Hz it is some hundred times the receptance.
-dynamics::FrequencyResponse noisy_at_first_lines(double hysteretic, unsigned seed) {
+// Two directions, 0.5 to 3000 Hz: robot and tool modes of hysteretic damping, and white noise of the
+// acceleration 50 dB below its mean: at 0.5 Hz it is some hundred times the receptance.
+dynamics::FrequencyResponse hysteretic_from_first_lines(unsigned seed) {
   struct Peak {
     double hz, damping, stiffness, angle;
   };
@@ -416,9 +416,8 @@ dynamics::FrequencyResponse noisy_at_first_lines(double hysteretic, unsigned see
           return direction == 0 ? std::cos(p.angle) : std::sin(p.angle);
         };
         for (Eigen::Index i = 0; i < 6000; ++i) {
-          const double rate = hysteretic * natural + (1 - hysteretic) * omega[i];
           entry.h[i] += along(response) * along(reference) * natural * natural / p.stiffness /
-                        Complex(natural * natural - omega[i] * omega[i], 2 * p.damping * natural * rate);
+                        Complex(natural * natural - omega[i] * omega[i], 2 * p.damping * natural * natural);
         }
       }
       const double floor = std::sqrt((entry.h.array().abs2() * omega.pow(4)).mean()) / 316;
@@ -432,20 +431,10 @@ dynamics::FrequencyResponse noisy_at_first_lines(double hysteretic, unsigned see
 
 }  // namespace
 
-TEST_CASE("noise at the first lines makes no modes") {
-  for (const unsigned seed : {1u, 2u, 3u}) {
-    const ModalFit fit = fit_modes(noisy_at_first_lines(0, seed));
-    for (const dynamics::Mode& mode : fit.model.modes) {
-      // Softer than the robot by far: a chart would find nothing else.
-      const double natural = kTwoPi * mode.frequency_hz;
-      CHECK(2 * mode.residue().norm() / natural < 5e-6);
-    }
-  }
-}
-
 TEST_CASE("helpers without a resonance are no structure") {
   for (const unsigned seed : {1u, 2u, 3u}) {
-    const ModalFit fit = fit_modes(noisy_at_first_lines(1, seed));
+    const ModalFit fit = fit_modes(hysteretic_from_first_lines(seed));
+    REQUIRE(fit.model.modes.size() >= 3);
     for (const dynamics::Mode& mode : fit.model.modes) {
       INFO(seed << ": " << mode.frequency_hz << " Hz, " << mode.damping_ratio);
       CHECK((mode.out_of_band || mode.damping_ratio < 0.71));

@@ -17,19 +17,22 @@ constexpr double kRising = 1.3, kStandingOut = 4;
 constexpr double kMedianOverMean = 1.2533;  // sqrt(pi / 2), of that of a mean
 constexpr Eigen::Index kMeanLines = 3;
 
-// Gives energy, by more than the noise of the lines does by chance: the deviation of a median of lines with
-// that share of noise in each part, or of any phase. Noise alone only weighs little.
+// Im H / |H| of a driving point, above 0 where it gives energy; 0 of other channels, which tell nothing of
+// it.
+double energy_given(const Channel& channel, const WindowSummary& window) {
+  return !channel.driving_point ? 0 : channel.swapped ? -window.imaginary : window.imaginary;
+}
+
+// By more than noise gives by chance: the deviation of a median of lines with that share of noise in each
+// part, or of any phase. Noise alone only weighs little.
 bool gives_energy(const Channel& channel, const WindowSummary& window) {
-  if (!channel.driving_point) return false;
-  const double positive = channel.swapped ? -window.imaginary : window.imaginary;
   const double deviation = kMedianOverMean * std::min(window.noise, 1.0) / std::sqrt(2 * window.lines);
-  return positive > kPositiveShare + kStandingOut * deviation;
+  return energy_given(channel, window) > kPositiveShare + kStandingOut * deviation;
 }
 
 // Noise, or no driving point's.
 bool tells_nothing(const Channel& channel, const WindowSummary& window) {
-  const double positive = channel.swapped ? -window.imaginary : window.imaginary;
-  return window.noise > kNoiseShare || (channel.driving_point && positive > kPositiveShare);
+  return window.noise > kNoiseShare || energy_given(channel, window) > kPositiveShare;
 }
 
 // How far (Hz) a drift reaches that the first `ruined` windows show; 0 where |H| does not fall over them.

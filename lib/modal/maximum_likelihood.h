@@ -27,7 +27,7 @@ struct RefinedModes {
 };
 
 /// Minimises the weighted squared error of all curves at once over poles and vectors, from the given modes,
-/// by Levenberg-Marquardt [Levenberg1944] [Marquardt1963] [Ceres], until a step changes chi_square by less
+/// by Levenberg-Marquardt [Levenberg1944] [Marquardt1963], until a step changes chi_square by less
 /// than the tolerance. A weak prior, which is part of chi_square, holds modes that start outside the band
 /// near it. Without modes chi_square is that of the curves alone.
 RefinedModes refine_modes(const FitData& data, const std::vector<dynamics::Mode>& start, ModeModel model,

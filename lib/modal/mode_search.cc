@@ -11,8 +11,8 @@
 namespace stablecut::modal {
 namespace {
 
+constexpr int kSplitsAndFits = 12;  // of noise that curves share, until both are settled
 // Of refinements between changes of the weights, of the last ones on the way, and of the final one.
-constexpr int kSplitsAndFits = 12;
 constexpr Effort kBetween{60, 0.01}, kLast{240, 1e-5}, kFinal{960, 1e-5};
 constexpr int kParts = 4;    // of a refinement that may be given up
 constexpr int kRescues = 3;  // modes that may be added before the noise is given up
@@ -78,6 +78,7 @@ double correction_of(const GroupFit& fit) {
   return values / std::max(values - parameters, 1.0);
 }
 
+// What curves have of their own.
 CurveVariances own_parts(const GroupFit& fit) {
   CurveVariances own = fit.variance;
   for (std::size_t c = 0; c < fit.shared.size(); ++c)
@@ -87,14 +88,14 @@ CurveVariances own_parts(const GroupFit& fit) {
 
 // Where curves share nearly all of their noise, the first modes, of independent errors, are off by more than
 // what curves have of their own: split and fit again until that no longer falls.
-GroupFit with_settled_split(GroupFit fit, bool local_allowed) {
+GroupFit with_settled_split(GroupFit fit) {
   for (int i = 0; i < kSplitsAndFits && tell_otherwise(fit.shared, {}); ++i) {
     const CurveVariances before = own_parts(fit);
     const double correction = correction_of(fit);
     GroupFit next = fit;
     if (next.noise_estimated)
-      next.variance = residual_as_noise(fit.data, fit.modes(), correction, local_allowed).variance;
-    next.shared = shared_noise(fit.data, fit.modes(), correction, local_allowed, next.variance);
+      next.variance = residual_as_noise(fit.data, fit.modes(), correction, true).variance;
+    next.shared = shared_noise(fit.data, fit.modes(), correction, true, next.variance);
     if (!differ_much(own_parts(next), before)) break;
     fit = std::move(next);
     fit.weigh(fit.regime);
@@ -119,7 +120,7 @@ GroupFit with_settled_noise(GroupFit fit, const SelectionOptions& options) {
     if (changed) select_modes(fit, options);
     if (!now.is_local) break;
   }
-  return with_settled_split(std::move(fit), true);
+  return with_settled_split(std::move(fit));
 }
 
 // A given variance says nothing of what curves share: where they do, the residual tells both parts.
@@ -132,7 +133,7 @@ GroupFit with_shared_noise(GroupFit fit, const SelectionOptions& options) {
     fit.refined = fit.refine(fit.modes(), kBetween);
     if (!known) select_modes(fit, options);
   }
-  return with_settled_split(std::move(fit), true);
+  return with_settled_split(std::move(fit));
 }
 
 // Nearly no noise: the same again with all that the numbers hold, unless the model cannot follow that far.

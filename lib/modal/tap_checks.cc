@@ -99,12 +99,13 @@ void check_low_noise(const std::vector<Channel>& channels, Findings& findings) {
     if (finding.kind == TapFindingKind::kDrift) worst.hi_hz = finding.hi_hz;
   for (const Channel& channel : channels) {
     if (channel.dead || !channel.driving_point) continue;
-    std::size_t clear = 0;
-    while (clear < channel.windows.size() && channel.windows[clear].noise > kNoiseShare) ++clear;
-    if (clear == 0 || channel.windows[clear - 1].hi_hz < std::max(2 * channel.windows[0].lo_hz, worst.hi_hz))
-      continue;
+    std::size_t noisy = 0;
+    while (noisy < channel.windows.size() && channel.windows[noisy].noise > kNoiseShare) ++noisy;
+    if (noisy == 0) continue;
+    const double up_to_hz = channel.windows[noisy - 1].hi_hz;
+    if (up_to_hz < 2 * channel.windows[0].lo_hz || up_to_hz <= worst.hi_hz) continue;
     worst.entry = channel.name();
-    worst.hi_hz = channel.windows[clear - 1].hi_hz;
+    worst.hi_hz = up_to_hz;
   }
   if (!worst.entry.response.empty()) findings.push_back(worst);
 }

@@ -9,27 +9,9 @@
 
 using namespace stablecut;
 using namespace stablecut::taps;
-using Complex = std::complex<double>;
+using fixtures::accelerance, fixtures::column_of, fixtures::exact_record, fixtures::kRate;
 
 namespace {
-
-constexpr double kRate = 10240;
-
-// What the structure shows of blows along x, without noise.
-Record exact_record(const std::vector<fixtures::Blow>& blows, double seconds, double decay_per_s) {
-  const auto samples = static_cast<Eigen::Index>(seconds * kRate);
-  Record record{kRate, fixtures::smooth_force_of(blows, kRate, samples), {}};
-  record.responses = fixtures::accelerations(fixtures::structure(), 0, record.force, kRate, decay_per_s);
-  return record;
-}
-
-TapColumn column_of(Record record) { return {"x", {"x", "y"}, {std::move(record)}}; }
-
-// Accelerance of the structure on the campaign's lines, s = i omega + decay.
-Complex accelerance(const dynamics::FrequencyResponse& frf, Eigen::Index line, Eigen::Index row) {
-  const Complex s(frf.window_decay_per_s, kTwoPi * frf.frequency_hz[line]);
-  return s * s * dynamics::receptance_at(fixtures::structure(), s)(row, 0);
-}
 
 // Parts of `length` samples of one record, one behind the other, hit with forces that differ by half.
 std::vector<Hit> hits_every(Eigen::Index length, int count) {

@@ -11,7 +11,7 @@ using namespace stablecut::taps;
 
 namespace {
 
-constexpr double kRate = 10240;
+using fixtures::kRate;
 
 // A record of force with noise, and a response of noise alone.
 Record record_of(const std::vector<fixtures::Blow>& blows, double seconds, double noise, unsigned seed = 1) {

@@ -11,6 +11,7 @@
 #include "dynamics/synthesis.h"
 #include "numerics/random.h"
 #include "taps/record.h"
+#include "taps/tap_campaign.h"
 
 namespace stablecut::taps::fixtures {
 
@@ -100,6 +101,25 @@ inline std::vector<Eigen::VectorXd> accelerations(const dynamics::ModalModel& mo
     result.emplace_back((signal.real().array() * (decay_per_s * time).exp()).matrix().head(force.size()));
   }
   return result;
+}
+
+inline constexpr double kRate = 10240;  // samples a second
+
+/// What the structure shows of blows along x, without noise.
+inline Record exact_record(const std::vector<Blow>& blows, double seconds, double decay_per_s) {
+  const auto samples = static_cast<Eigen::Index>(seconds * kRate);
+  Record record{kRate, smooth_force_of(blows, kRate, samples), {}};
+  record.responses = accelerations(structure(), 0, record.force, kRate, decay_per_s);
+  return record;
+}
+
+inline TapColumn column_of(Record record) { return {"x", {"x", "y"}, {std::move(record)}}; }
+
+/// Accelerance of the structure on the campaign's lines, s = i omega + decay.
+inline std::complex<double> accelerance(const dynamics::FrequencyResponse& frf, Eigen::Index line,
+                                        Eigen::Index row) {
+  const std::complex<double> s(frf.window_decay_per_s, kTwoPi * frf.frequency_hz[line]);
+  return s * s * dynamics::receptance_at(structure(), s)(row, 0);
 }
 
 }  // namespace stablecut::taps::fixtures

@@ -47,7 +47,7 @@ ToolPathDocument tool_path_from_json(const Json& document, const Source& source,
     point.axis = direction_from(item.at("axis"));
     if (const auto feed = item.find("feed")) point.feed = direction_from(*feed);
     const auto own = item.find("speed_mm_per_s");
-    if (!own && !speed) item.fail("expected speed_mm_per_s here or beside points (divide the path)");
+    if (!own && !speed) item.fail("expected speed_mm_per_s here or beside points");
     point.speed = own ? own->number(kSpeed) * 1e-3 : *speed;
     path.push_back(point);
   }
