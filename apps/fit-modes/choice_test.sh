@@ -39,6 +39,17 @@ refused 65 '^fit-modes: bad.csv: line 2: 2: expected a damping ratio above 0 and
 printf 'frequency_hz,damping_ratio\n100,0.02\n100,0.02\n' >twice.csv
 refused 65 '^fit-modes: twice.csv: line 3: 100 Hz: expected each pole once' fit-modes tap.json --poles twice.csv
 
+# What lies outside the band as residual terms; where modes in the band limit, a chart is that of the whole table.
+fit-modes "$table" --synthesize 10:1000:1981 --noise-db 50 -o band.json
+fit-modes band.json --band 30:1000 --poles "$table" --residuals -o residuals.json --quiet
+check_jq "two terms below and two above the band, at fixed poles" residuals.json '.fit.residuals == true and .fit.poles == "starts"
+  and ([.modes[] | select(.out_of_band)] | length == 4 and all(.std.frequency_hz == 0)) and ([.modes[] | select(.out_of_band | not)] | length == 12)'
+for modes in "$table" residuals.json; do
+  sdm-lobes "$modes" --cut "$data/thesis-cut.json" --speed 11000:12000:3 --depth 0:3:3 --quiet -o "$(basename "$modes" .json).lobes.json"
+done
+check_jq "a chart of such a table" residuals.lobes.json '[.limit, $whole[0].limit] | transpose
+  | all((.[0].depth_mm / .[1].depth_mm - 1 | fabs) < 0.01)' --slurpfile whole "$(basename "$table" .json).lobes.json"
+
 # Only xx and yy were tapped: poles of their own, or one where they agree.
 jq '.modes |= [.[:3][] | .frequency_hz as $f | .damping_ratio as $z | (.psi_r[0] as $r | .psi_l[0] as $l | {frequency_hz: $f, damping_ratio: $z, psi_r: [$r, [0, 0]], psi_l: [$l, [0, 0]]}),
   (.psi_r[1] as $r | .psi_l[1] as $l | {frequency_hz: $f, damping_ratio: $z, psi_r: [[0, 0], $r], psi_l: [[0, 0], $l]})]' "$table" >apart.json

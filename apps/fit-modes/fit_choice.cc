@@ -36,8 +36,12 @@ void FitChoice::declare(CLI::App& app) {
       "The refinement begins at the poles of --poles (default), or leaves them as they are");
   app.add_flag("--shared-poles", share_poles_,
                "Where nothing was measured across (xx and yy alone): one pole for modes whose poles agree");
-  for (const char* name :
-       {"--window-decay", "--modes", "--model", "--exclude", "--poles", "--poles-are", "--shared-poles"})
+  app.add_flag(
+      "--residuals", residual_terms_,
+      "What lies outside the band is one fixed term below and one above it for each direction: --modes "
+      "and --poles are those in the band");
+  for (const char* name : {"--residuals", "--window-decay", "--modes", "--model", "--exclude", "--poles",
+                           "--poles-are", "--shared-poles"})
     declared_.push_back(app.get_option(name));
 }
 
@@ -100,6 +104,7 @@ void FitChoice::add_to_report(document::Json& fit) const {
     fit["excluded_hz"] = document::Json::array();
     for (const Range& band : excluded_) fit["excluded_hz"].push_back({band.from, band.to});
   }
+  if (residual_terms_) fit["residuals"] = true;
   if (!poles_.empty()) fit["poles"] = poles_are_ == "fixed" ? "fixed" : "starts";
 }
 
@@ -109,6 +114,7 @@ modal::FitOptions FitChoice::options(Progress progress) const {
   options.progress = std::move(progress);
   options.poles = poles_;
   options.share_poles = share_poles_;
+  options.residual_terms = residual_terms_;
   options.poles_fixed = poles_are_ == "fixed";
   const auto name = std::find(kModelNames.begin(), kModelNames.end(), model_);
   if (model_ == "best") options.model = std::nullopt;

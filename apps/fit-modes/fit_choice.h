@@ -20,8 +20,8 @@ struct FittedLines {
 
 class FitChoice {
  public:
-  /// Declares --window-decay, --modes, --model, --exclude, --poles, --poles-are and --shared-poles; the
-  /// object must stay where it is until they have been parsed.
+  /// Declares --window-decay, --modes, --model, --exclude, --poles, --poles-are, --residuals and
+  /// --shared-poles; the object must stay where it is until they have been parsed.
   void declare(CLI::App& app);
   const std::vector<CLI::Option*>& declared() const { return declared_; }
 
@@ -51,6 +51,7 @@ class FitChoice {
   std::optional<int> modes_;
   std::string model_, poles_path_, poles_are_;
   bool share_poles_ = false;
+  bool residual_terms_ = false;
   std::vector<Range> excluded_;
   std::vector<modal::GivenPole> poles_;
   std::vector<CLI::Option*> declared_;

@@ -113,6 +113,7 @@ with tempfile.TemporaryDirectory() as folder:
     modes_path.write_text(json.dumps(documents["best model"]))
     documents["table at fixed poles"] = run("fit-modes", "--poles", str(modes_path), "--poles-are", "fixed", "--exclude", "1:3,5:6",
                                             stdin=json.dumps(tap))
+    documents["table with residual terms"] = run("fit-modes", "--residuals", "--band", "30:1000", stdin=json.dumps(tap))
     diagonal = tap | {"h": [entry for entry in tap["h"] if entry["response"] == entry["reference"]]}
     documents["table of shared poles"] = run("fit-modes", "--shared-poles", stdin=json.dumps(diagonal))
 liu = json.loads((source / "testdata/liu-assembly.json").read_text())

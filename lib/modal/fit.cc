@@ -13,6 +13,7 @@
 #include "modal/mismatch_proof.h"
 #include "modal/mode_search.h"
 #include "modal/shared_poles.h"
+#include "modal/start_modes.h"
 #include "modal/table_assembly.h"
 
 namespace stablecut::modal {
@@ -136,10 +137,14 @@ std::vector<Group> groups_of(const dynamics::FrequencyResponse& measured, const 
     group.variance = known_variances(measured, parts[g]);
     group.data = group_data(measured, parts[g], group.directions);
     group.wanted_modes = share_of_modes(options, parts.size(), g);
+    group.data.residual_terms = options.residual_terms;
     if (!options.poles.empty()) {
       group.poles = poles_of(options, group, measured.window_decay_per_s);
-      group.wanted_modes = static_cast<int>(group.poles.size());
       group.data.poles_fixed = options.poles_fixed;
+      if (options.residual_terms) group.poles = with_residual_terms(group.data, group.poles);
+      group.wanted_modes =
+          static_cast<int>(std::count_if(group.poles.begin(), group.poles.end(),
+                                         [&](Complex pole) { return !group.data.is_residual(pole); }));
     }
     groups.push_back(std::move(group));
   }
@@ -329,7 +334,8 @@ void judge_explained(const std::vector<Group>& groups, const std::vector<GroupFi
 
 void judge(const dynamics::FrequencyResponse& measured, const std::vector<Group>& groups,
            const std::vector<GroupFit>& fits, const FitOptions& options, ModalFit& fit) {
-  const std::size_t modes = fit.model.modes.size();
+  std::size_t modes = 0;
+  for (const GroupFit& part : fits) modes += part.own_modes();
   for (std::size_t g = 0; g < groups.size(); ++g) {
     if (!groups[g].variance.empty() && fits[g].noise_estimated)
       fit.findings.push_back({.kind = FitFindingKind::kVarianceTooSmall});

@@ -31,6 +31,9 @@ struct FitOptions {
   std::vector<GivenPole> poles{};
   bool share_poles = false;  ///< of independent groups, where they agree; not with poles_fixed
   bool poles_fixed = false;  ///< keep them as they are; else they are where the refinement starts
+  /// What lies outside the band is fixed terms, one below and one above for each direction, in place of modes
+  /// there: `modes` and `poles` are those in the band.
+  bool residual_terms = false;
 };
 
 /// How far the measurement is from reciprocal: sums over all pairs of directions measured both ways.

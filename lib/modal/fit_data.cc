@@ -4,6 +4,13 @@
 #include <numeric>
 
 namespace stablecut::modal {
+namespace {
+
+// Of residual terms: place in band ends below or above the band, how much farther each next direction's is,
+// and -Re lambda / Im lambda.
+constexpr double kResidualPlace = 1.5, kResidualSpread = 0.1, kResidualDamping = 0.05;
+
+}  // namespace
 
 std::vector<std::size_t> FitData::vector_parts() const {
   constexpr std::size_t kNoPart = -1;
@@ -31,6 +38,17 @@ std::vector<std::size_t> FitData::vector_parts() const {
 
 bool FitData::in_band(std::complex<double> pole) const {
   return pole.imag() >= lowest() && pole.imag() <= highest();
+}
+
+Eigen::VectorXcd residual_poles(const FitData& data) {
+  Eigen::VectorXcd poles(2 * data.dofs);
+  for (Eigen::Index d = 0; d < data.dofs; ++d) {
+    const double place = kResidualPlace * (1 + kResidualSpread * static_cast<double>(d));
+    const std::complex<double> unit(-kResidualDamping, 1);
+    poles[2 * d] = data.lowest() / place * unit;
+    poles[2 * d + 1] = data.highest() * place * unit;
+  }
+  return poles;
 }
 
 std::vector<DirectionGroup> independent_groups(const dynamics::FrequencyResponse& frf) {

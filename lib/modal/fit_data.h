@@ -28,6 +28,8 @@ struct FitData {
   std::vector<Curve> curves;
   bool independent_lines = true;  ///< noise is; through an exponential window it is not
   bool poles_fixed = false;       ///< known: only vectors are refined, and deviations are given the poles
+  /// What lies outside the band is terms at residual_poles, which stay there, and no mode leaves the band.
+  bool residual_terms = false;
 
   /// Which curves share components of psi_r or psi_l, directly or by others: a number from 0 on for each
   /// curve. Between two parts the scale of a mode's vectors is free.
@@ -38,11 +40,18 @@ struct FitData {
   double highest() const { return s[lines() - 1].imag(); }  ///< rad/s
   /// Whether a pole lies in the band of the lines. The one definition of it: README.md, "In the band".
   bool in_band(std::complex<double> pole) const;
+  /// Whether a pole is that of a residual term, and whether it stays where it is.
+  bool is_residual(std::complex<double> pole) const { return residual_terms && !in_band(pole); }
+  bool holds(std::complex<double> pole) const { return poles_fixed || is_residual(pole); }
   /// Mean distance between lines, rad/s.
   double line_spacing() const { return (s[lines() - 1] - s[0]).imag() / static_cast<double>(lines() - 1); }
   /// Number of real values measured.
   double values() const { return 2.0 * static_cast<double>(lines()) * static_cast<double>(curves.size()); }
 };
+
+/// Poles of the terms that stand for what lies below and above the band, one of each for a direction, as the
+/// residual matrix of so many directions has that rank: README.md, "Residual terms".
+Eigen::VectorXcd residual_poles(const FitData& data);
 
 /// Directions that some entry other than an exact zero connects, directly or by others. Between two groups
 /// there is nothing but zeros (or nothing was measured): they are independent structures, and each is fitted

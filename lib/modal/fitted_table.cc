@@ -130,8 +130,8 @@ FittedTable fitted_table(const FitData& data, const std::vector<dynamics::Mode>&
   const Likelihood likelihood(data, parameters, out_of_band(data, modes));
   const NormalEquations normal = likelihood.evaluate(x, true);
   Eigen::MatrixXd inverse = inverse_normal_matrix(normal);
-  for (Eigen::Index k = 0; k < parameters.modes() && data.poles_fixed; ++k)
-    inverse.diagonal().segment<2>(parameters.pole_at(k)).setZero();
+  for (Eigen::Index k = 0; k < parameters.modes(); ++k)
+    if (data.holds(modes[k].pole())) inverse.diagonal().segment<2>(parameters.pole_at(k)).setZero();
   table.covariance = slope * (inverse / 2) * slope.transpose();
   std::vector<Eigen::VectorXd> shifts = scale_shifts(data, parameters, fitted);
   if (of_noise && model == ModeModel::kNonsymmetric && data.independent_lines) {

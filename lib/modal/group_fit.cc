@@ -25,6 +25,11 @@ RefinedModes GroupFit::refine(const std::vector<dynamics::Mode>& modes, const Ef
   return refine_modes(data, modes, model, effort);
 }
 
+std::size_t GroupFit::own_modes() const {
+  return static_cast<std::size_t>(std::count_if(
+      modes().begin(), modes().end(), [&](const auto& mode) { return !data.is_residual(mode.pole()); }));
+}
+
 void GroupFit::weigh(Regime regime_now) {
   regime = regime_now;
   weigh_curves(data, variance, shared, regime);

@@ -23,6 +23,8 @@ struct GroupFit {
   bool selection_settled = true;  ///< no mode was left to be added or removed when the selection ended
 
   const std::vector<dynamics::Mode>& modes() const { return refined.modes; }
+  /// Modes that are no residual terms.
+  std::size_t own_modes() const;
   /// The given modes refined with these weights, in this model.
   RefinedModes refine(const std::vector<dynamics::Mode>& modes, const Effort& effort) const;
   /// Weighs the curves anew, in that regime.

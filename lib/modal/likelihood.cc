@@ -205,13 +205,14 @@ NormalEquations Likelihood::evaluate(const Eigen::Ref<const Eigen::VectorXd>& x,
   add_size_priors(modes, sums, with_matrix);
   NormalEquations result = with_matrix ? to_parameters(parameters_, x, sums) : std::move(sums);
   add_priors(x, with_matrix, result);
-  if (data_.poles_fixed && with_matrix) hold_poles(result);
+  if (with_matrix) hold_poles(x, result);
   return result;
 }
 
-// No slope along the poles' parameters, and none of the others' information.
-void Likelihood::hold_poles(NormalEquations& result) const {
+// No slope along the parameters of poles that stay, and none of the others' information.
+void Likelihood::hold_poles(const Eigen::Ref<const Eigen::VectorXd>& x, NormalEquations& result) const {
   for (Eigen::Index k = 0; k < parameters_.modes(); ++k) {
+    if (!data_.holds(parameters_.pole(x, k))) continue;
     for (const Eigen::Index at : {parameters_.pole_at(k), parameters_.pole_at(k) + 1}) {
       result.gradient[at] = 0;
       result.matrix.row(at).setZero();

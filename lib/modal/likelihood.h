@@ -32,7 +32,7 @@ class Likelihood {
   // At the band's nearer end a mode outside it makes a small multiple of what is measured there.
   void add_size_priors(const std::vector<dynamics::Mode>& modes, NormalEquations& coordinates,
                        bool with_matrix) const;
-  void hold_poles(NormalEquations& result) const;
+  void hold_poles(const Eigen::Ref<const Eigen::VectorXd>& x, NormalEquations& result) const;
 
   const FitData& data_;
   const ModeParameters& parameters_;

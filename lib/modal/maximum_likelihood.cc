@@ -18,6 +18,7 @@ using Complex = std::complex<double>;
 // nearly the same from three times the band on, and a high frequency costs time in a stability chart.
 constexpr double kLeastRatio = 1e-6, kLargestRatio = 20;
 constexpr double kLeastRate = 1e-5, kLargestRate = 3;
+constexpr double kInside = 1e-9;  // of the band's ends: a mode that shall not leave the band stays off them
 
 Eigen::VectorXd removal_loss(const ModeParameters& parameters, const Eigen::VectorXd& x,
                              const NormalEquations& normal) {
@@ -46,10 +47,13 @@ RefinedModes refine_modes(const FitData& data, const std::vector<dynamics::Mode>
   const Likelihood likelihood(data, parameters, out_of_band(data, start));
   const double highest = data.s.cwiseAbs().maxCoeff(), unbounded = std::numeric_limits<double>::infinity();
   Eigen::VectorXd lower = Eigen::VectorXd::Constant(parameters.size(), -unbounded), upper = -lower;
-  for (Eigen::Index k = 0; k < parameters.modes() && !data.poles_fixed; ++k) {
+  for (Eigen::Index k = 0; k < parameters.modes(); ++k) {
+    if (data.holds(start[k].pole())) continue;
     const Eigen::Index at = parameters.pole_at(k);
-    lower.segment<2>(at) << std::log(kLeastRatio), std::log(kLeastRate * highest);
-    upper.segment<2>(at) << std::log(kLargestRatio), std::log(kLargestRate * highest);
+    const double least = data.residual_terms ? (1 + kInside) * data.lowest() : kLeastRate * highest,
+                 largest = data.residual_terms ? (1 - kInside) * data.highest() : kLargestRate * highest;
+    lower.segment<2>(at) << std::log(kLeastRatio), std::log(least);
+    upper.segment<2>(at) << std::log(kLargestRatio), std::log(largest);
   }
   const auto sums = [&](const Eigen::VectorXd& x, bool with_matrix) {
     return likelihood.evaluate(x, with_matrix);

@@ -137,10 +137,11 @@ dynamics::Mode best_addition(const FitData& data, const std::vector<dynamics::Mo
   double best_gain = -1;
   dynamics::Mode best;
   for (const double zeta : kDampings) {
-    const double margin = zeta == kOutsideDamping ? kOutsideMargin : 1;
+    const double margin = zeta == kOutsideDamping && !data.residual_terms ? kOutsideMargin : 1;
     for (double rate = std::max(data.lowest(), spacing) / margin; rate <= data.highest() * margin;
          rate += std::max(zeta * rate, kSpacingShare * spacing)) {
       const Complex pole = rate * Complex(-zeta, std::sqrt(1 - zeta * zeta));
+      if (data.is_residual(pole)) continue;
       const std::optional<Addition> addition = addition_at(residual, pole);
       if (!addition || !(addition->gain > best_gain) || !addition->residue.allFinite()) continue;
       best_gain = addition->gain;

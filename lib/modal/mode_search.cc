@@ -154,7 +154,10 @@ GroupFit without_noise(const GroupFit& coarse, const SelectionOptions& options) 
 // No sum of modes reaches the noise: curves weigh by their size, and modes are found from the strongest on.
 GroupFit from_strongest(GroupFit fit, const SelectionOptions& options) {
   fit.weigh(Regime::kModelError);
-  fit.refined = fit.refine(options.poles.size() > 0 ? fit.modes() : std::vector<dynamics::Mode>{}, kLast);
+  if (options.poles.size() == 0)
+    fit.refined.modes = fit.data.residual_terms ? modes_at(fit.data, residual_poles(fit.data))
+                                                : std::vector<dynamics::Mode>{};
+  fit.refined = fit.refine(fit.modes(), kLast);
   select_modes(fit, options);
   // It may have been the way to the noise that failed, not the model.
   GroupFit noisy = fit;

@@ -23,10 +23,11 @@ constexpr double kLesserShare = 0.05;
 constexpr double kLargerShare = 0.3;
 constexpr double kLeastHalfWidth = 0.02;  // of a mode between two lines, in line spacings
 
-// Modes from the least important on; those that are too narrow come first.
+// Modes from the least important on; those that are too narrow come first. Residual terms stay.
 std::vector<std::size_t> removal_order(const GroupFit& fit) {
   std::vector<std::size_t> order(fit.modes().size());
   std::iota(order.begin(), order.end(), std::size_t{0});
+  std::erase_if(order, [&](std::size_t k) { return fit.data.is_residual(fit.modes()[k].pole()); });
   const auto rank = [&](std::size_t k) {
     return std::pair(!is_too_narrow(fit.data, fit.modes()[k]), fit.refined.removal_loss[k]);
   };
@@ -57,7 +58,7 @@ std::optional<RefinedModes> without_mode(const GroupFit& fit, std::size_t k, boo
 // `underestimates` holds what trials told of each mode (see without_mode).
 void remove_modes(GroupFit& fit, std::optional<int> wanted_modes, std::vector<double>& underestimates) {
   const std::size_t least = wanted_modes ? static_cast<std::size_t>(*wanted_modes) : 0;
-  while (fit.modes().size() > least) {
+  while (fit.own_modes() > least) {
     const std::vector<std::size_t> order = removal_order(fit);
     std::optional<RefinedModes> fewer;
     for (std::size_t attempt = 0; attempt < std::min(kRemovalTrials, order.size()) && !fewer; ++attempt) {
@@ -91,7 +92,7 @@ bool is_too_narrow(const FitData& data, const dynamics::Mode& mode) {
 }
 
 std::optional<RefinedModes> with_another_mode(const GroupFit& fit, std::optional<int> wanted_modes) {
-  if (wanted_modes && static_cast<int>(fit.modes().size()) >= *wanted_modes) return std::nullopt;
+  if (wanted_modes && static_cast<int>(fit.own_modes()) >= *wanted_modes) return std::nullopt;
   std::vector<dynamics::Mode> more = fit.modes();
   more.push_back(best_addition(fit.data, fit.modes()));
   RefinedModes trial = fit.refine(more, kAddition);

@@ -93,6 +93,14 @@ std::vector<dynamics::Mode> modes_at(const FitData& data, const Eigen::VectorXcd
   return modes;
 }
 
+Eigen::VectorXcd with_residual_terms(const FitData& data, const Eigen::VectorXcd& poles) {
+  std::vector<Complex> all(poles.begin(), poles.end());
+  std::erase_if(all, [&](Complex pole) { return !data.in_band(pole); });
+  const Eigen::VectorXcd terms = residual_poles(data);
+  all.insert(all.end(), terms.begin(), terms.end());
+  return Eigen::Map<Eigen::VectorXcd>(all.data(), static_cast<Eigen::Index>(all.size()));
+}
+
 // From more pairs where nearly all of them matter.
 Eigen::VectorXcd find_poles(const GroupFit& fit) {
   const Eigen::Index lines = fit.data.lines();
@@ -102,10 +110,11 @@ Eigen::VectorXcd find_poles(const GroupFit& fit) {
     const bool crowded = static_cast<double>(poles.size()) >= kCrowdedStart * static_cast<double>(pairs);
     if (!crowded || kLinesPerPair * pairs >= lines) break;
   }
-  return poles;
+  return fit.data.residual_terms ? with_residual_terms(fit.data, poles) : poles;
 }
 
 RefinedModes start_modes(const GroupFit& fit, const Eigen::VectorXcd& poles) {
+  if (fit.data.residual_terms) return fit.refine(modes_at(fit.data, poles), kStartEffort);
   return with_rigid_body(fit, fit.refine(modes_at(fit.data, poles), kStartEffort));
 }
 

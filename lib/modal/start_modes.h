@@ -8,6 +8,9 @@ namespace stablecut::modal {
 /// Poles of the weighted curves by vector fitting, those that matter (rad/s).
 Eigen::VectorXcd find_poles(const GroupFit& fit);
 
+/// The poles in the band, and those of the residual terms.
+Eigen::VectorXcd with_residual_terms(const FitData& data, const Eigen::VectorXcd& poles);
+
 /// Modes at the poles, each with the nearest residue of rank one.
 std::vector<dynamics::Mode> modes_at(const FitData& data, const Eigen::VectorXcd& poles);
 
