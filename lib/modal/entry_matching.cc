@@ -25,7 +25,7 @@ constexpr int kSections = 12;               // of the interval of a delay
 constexpr Eigen::Index kPhaseLines = 1000;  // of which phases are looked at, or a few more
 // Mean square of the energy that a driving point seems to give, as a sine of the phase, that is conspicuous,
 // and what a common delay may leave more than delays of each.
-constexpr double kGivenEnergy = 0.003;
+constexpr double kGivenEnergy = 0.0001;
 // Mean cosine between mirrored entries that is conspicuous, and what a delay must make better.
 constexpr double kOutOfPhase = 0.985, kMoreInPhase = 0.02;
 constexpr Eigen::Index kLeastLines = 20;  // clear of noise, or phases tell nothing
@@ -39,6 +39,11 @@ constexpr double kLeastScale = 0.01, kSignificant = 2;
 constexpr double kSureWhich = 3;
 constexpr double kLeastDeviation = 0.003;  // of a logarithm of four residues: poles are not known exactly
 const double kDeviationOfMedian = 1.4826 * 1.2533;  // from the median absolute deviation, of a median
+
+// Between delays that are tried.
+double delay_step(double highest) {
+  return std::max(kTwoPi / (kStepsPerPeriod * highest), kMostDelay / kMostTrials);
+}
 
 // A curve over its root mean square within half an octave, so that the resonances of each octave count alike.
 Eigen::ArrayXcd levelled(const FitData& data, const Curve& curve) {
@@ -282,8 +287,10 @@ bool matters(const FitData& data, const EntryMismatch& mismatch) {
          std::abs(mismatch.delay_s) * data.highest() >= kLeastScale;
 }
 
+double delays_tried(double highest) { return 2 * kMostDelay / delay_step(highest) + 1; }
+
 double best_delay(double highest, const std::function<double(double)>& value) {
-  const double step = std::max(kTwoPi / (kStepsPerPeriod * highest), kMostDelay / kMostTrials);
+  const double step = delay_step(highest);
   double best = 0, most = value(0);
   for (double delay = step; delay <= kMostDelay; delay += step) {
     for (const double of_either_sign : {delay, -delay}) {

@@ -33,6 +33,9 @@ bool matters(const FitData& data, const EntryMismatch& mismatch);
 /// curves behind it.
 double best_delay(double highest, const std::function<double(double)>& value);
 
+/// How many delays best_delay looks at.
+double delays_tried(double highest);
+
 /// Suggests what may be wrong, the likeliest first: delays from the phases of driving points (of which
 /// `is_driving_point` [curves] tells) and of mirrored entries on the lines, scales from the residues that
 /// each curve has by itself at common `poles` (rad/s).

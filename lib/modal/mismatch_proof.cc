@@ -15,11 +15,9 @@ namespace stablecut::modal {
 namespace {
 
 constexpr std::size_t kMostMismatches = 4;  // of one group
-// Numbers that a mismatch has to be worth: it is one of many delays or scales of many curves.
-constexpr double kNumbersOfMismatch = 4;
-constexpr int kEstimates = 3;       // of a delay or factor, between refinements
-constexpr double kLeastOwn = 1e-6;  // share of its slope that modes cannot imitate
-constexpr double kNoWorse = 2;      // chi-square of linear least squares that may be left of mended curves
+constexpr int kEstimates = 3;               // of a delay or factor, between refinements
+constexpr double kLeastOwn = 1e-6;          // share of its slope that modes cannot imitate
+constexpr double kNoWorse = 2;  // chi-square of linear least squares that may be left of mended curves
 constexpr Effort kBetween{60, 0.01};
 
 // Schwarz' criterion [Schwarz1978].
@@ -100,20 +98,32 @@ class Proof {
 
  private:
   // `after` is a fit of the curves without the mismatch. Both are judged by the noise that the mended curves
-  // show.
+  // show, and the curves as they are by the better of both fits' modes: that a search found more is no
+  // mismatch.
   std::optional<Proven> proved(const GroupFit& now, EntryMismatch mismatch, GroupFit after) const {
     estimate(after, mismatch);
-    GroupFit before = now;
-    before.data = mended(after.data, inverse_of(mismatch));
-    before.refined = before.refine(now.modes(), kBetween);
+    if (!matters(now.data, mismatch)) return std::nullopt;
     // A fit must not excuse its own misfit by a larger inflation.
     const double inflation = std::min(after.inflation_of(after.refined), now.inflation_of(now.refined));
+    GroupFit before = now, again = now;
+    before.data = again.data = mended(after.data, inverse_of(mismatch));
+    before.refined = before.refine(now.modes(), kBetween);
+    again.refined = again.refine(after.modes(), kBetween);
+    if (criterion(again, inflation) < criterion(before, inflation)) before = std::move(again);
     const double gain = criterion(before, inflation) - criterion(after, inflation);
-    if (!(gain > kNumbersOfMismatch * std::log(now.data.values()))) return std::nullopt;
+    if (!(gain > price_of(mismatch))) return std::nullopt;
     // Against a model error a chi-square tells little: fewer modes alone prove nothing.
     if (after.regime == Regime::kModelError && after.refined.chi_square > before.refined.chi_square)
       return std::nullopt;
     return Proven{mismatch, gain};
+  }
+
+  // Its own number, and which curve's, and of delays which one, it is the best of: each of n is one of n by
+  // chance.
+  double price_of(const EntryMismatch& mismatch) const {
+    const auto curves = static_cast<double>(fit_.data.curves.size()) + 1;
+    const double trials = mismatch.factor == 1 ? curves * delays_tried(fit_.data.highest()) : curves;
+    return std::log(fit_.data.values()) + 2 * std::log(trials);
   }
 
   // Poles that imitate a delay are no worse for curves without it: where they are, there was none. Linear
@@ -192,6 +202,17 @@ class Proof {
   const SelectionOptions& options_;
 };
 
+// What was left of a mismatch that has been found is added to it.
+void add(const EntryMismatch& mismatch, std::vector<EntryMismatch>& proved) {
+  const auto same = std::find_if(proved.begin(), proved.end(), [&](const EntryMismatch& one) {
+    return one.all == mismatch.all && (one.all || one.curve == mismatch.curve) &&
+           (one.factor == 1) == (mismatch.factor == 1);
+  });
+  if (same == proved.end()) return proved.push_back(mismatch);
+  same->delay_s += mismatch.delay_s;
+  same->factor *= mismatch.factor;
+}
+
 }  // namespace
 
 std::vector<EntryMismatch> proved_mismatches(const GroupFit& fit, const CurveVariances& given,
@@ -200,14 +221,14 @@ std::vector<EntryMismatch> proved_mismatches(const GroupFit& fit, const CurveVar
   std::vector<EntryMismatch> proved;
   const Proof proof(fit, given, options);
   GroupFit now = fit;
-  while (proved.size() < kMostMismatches) {
+  for (std::size_t i = 0; i < kMostMismatches; ++i) {
     std::optional<Proven> best;
     for (const EntryMismatch& suggested : suggested_mismatches(now.data, now.start_poles, is_driving_point)) {
       std::optional<Proven> better = proof.of(now, suggested);
       if (better && (!best || better->gain > best->gain)) best = std::move(better);
     }
-    if (!best || !matters(fit.data, best->mismatch)) break;
-    proved.push_back(best->mismatch);
+    if (!best) break;
+    add(best->mismatch, proved);
     now = proof.without(now, best->mismatch);
   }
   return proved;

@@ -27,7 +27,21 @@ bool is_dead(const std::vector<WindowSummary>& windows) {
   return static_cast<double>(noisy) > kDeadWindows * static_cast<double>(windows.size());
 }
 
+// A part of H counts where it is so many deviations of the noise.
+constexpr double kSignificant = 2;
+
 }  // namespace
+
+double positive_share(const Channel& channel, double usable_from_hz, double WindowSummary::*part) {
+  double positive = 0, all = 0;
+  for (const WindowSummary& window : channel.windows) {
+    if (window.lo_hz <= usable_from_hz || window.noise > kNoiseShare) continue;
+    if (std::abs(window.*part) < kSignificant * window.noise) continue;
+    all += std::abs(window.*part);
+    positive += std::max(window.*part, 0.0);
+  }
+  return all > 0 ? positive / all : 0.0;
+}
 
 std::vector<Channel> channels_of(const dynamics::FrequencyResponse& receptance) {
   const Eigen::VectorXd& hz = receptance.frequency_hz;

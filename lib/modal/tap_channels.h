@@ -24,6 +24,13 @@ struct Channel {
 
 std::vector<Channel> channels_of(const dynamics::FrequencyResponse& receptance);
 
+/// Share of the windows above `usable_from_hz` in which a part of H / |H| is positive, weighted by that part;
+/// 0 where none stands out of the noise.
+double positive_share(const Channel& channel, double usable_from_hz, double WindowSummary::*part);
+
+/// A part has one sign where the other's share is kOneSign at most; one of both where it is between the two.
+inline constexpr double kOneSign = 0.05, kSomeSign = 0.2;
+
 /// A window tells nothing where the noise's deviation is larger than that share of |H|: 10 dB.
 inline constexpr double kNoiseShare = 0.3;
 /// A window is no sound driving point's where its imaginary part is positive by more than that share of |H|.

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <utility>
 
 #include "base/units.h"
 #include "modal/disturbed_lines.h"
 #include "modal/low_end.h"
+#include "modal/mirror_checks.h"
 #include "modal/tap_channels.h"
 #include "numerics/order_statistics.h"
 
@@ -20,18 +22,11 @@ using Findings = std::vector<TapFinding>;
 constexpr Eigen::Index kLeastTapLines = 20;  // of fewer nothing is said
 constexpr double kUnevenLines = 1.05;        // largest over smallest distance of lines
 constexpr double kRoundedLines = 0.5;        // of the mean distance: rounded frequencies are off by less
-// A part of H counts where it is so many deviations of the noise.
-constexpr double kSignificant = 2;
-constexpr double kWrongSign = 0.8;  // share of what counts with a sign from which on that is said
-// A part has one sign where the other's share is kOneSign at most; one of both where it is between the two.
-constexpr double kOneSign = 0.05, kSomeSign = 0.2;
+constexpr double kWrongSign = 0.8;           // share of what counts with a sign from which on that is said
 // The imaginary part is a good part of H (kTurned) in a good part of the windows (one in kTurningWindows).
 constexpr double kTurned = 0.5;
 constexpr std::ptrdiff_t kTurningWindows = 5;
 constexpr double kRisingSlope = 0.5, kFallingSlope = -2.5;  // of log |H| over log frequency
-// Relative difference of mirrored entries that is said, also in units of what noise alone would make.
-constexpr double kNotReciprocalShare = 0.1, kNotReciprocalNoises = 3;
-constexpr double kOpposite = 0.3;  // of the sum of mirrored entries, below which one has the other sign
 // Coherence is looked at where |H| is this part of its median; it is poor on one line in kPoorLines.
 constexpr double kPoorCoherenceLimit = 0.8, kResponding = 0.3;
 constexpr std::size_t kPoorLines = 20;
@@ -125,18 +120,6 @@ void check_high_end(const std::vector<Channel>& channels, Findings& findings) {
   if (from > 0) findings.push_back({.kind = TapFindingKind::kNoiseAtHighEnd, .entry = name, .lo_hz = from});
 }
 
-// Share of the usable windows in which a part of H / |H| is positive, weighted by that part.
-double positive_share(const Channel& channel, double usable_from_hz, double WindowSummary::*part) {
-  double positive = 0, all = 0;
-  for (const WindowSummary& window : channel.windows) {
-    if (window.lo_hz <= usable_from_hz || window.noise > kNoiseShare) continue;
-    if (std::abs(window.*part) < kSignificant * window.noise) continue;
-    all += std::abs(window.*part);
-    positive += std::max(window.*part, 0.0);
-  }
-  return all > 0 ? positive / all : 0.0;
-}
-
 // Not the curve of a stiffness or a mass alone, which is real.
 bool turns(const Channel& channel) {
   const auto count =
@@ -176,100 +159,6 @@ void check_signs(const std::vector<Channel>& channels, double usable_from_hz, Fi
       findings.push_back({.kind = kind, .entry = channel.name(), .most = imaginary});
     }
   }
-}
-
-const Channel* find(const std::vector<Channel>& channels, const std::string& response,
-                    const std::string& reference) {
-  const auto at = std::find_if(channels.begin(), channels.end(), [&](const Channel& channel) {
-    return channel.entry->response == response && channel.entry->reference == reference;
-  });
-  return at == channels.end() || at->dead ? nullptr : &*at;
-}
-
-// Two entries as mirror images, on the lines on which both stand 10 dB above their noise.
-struct MirrorComparison {
-  std::vector<double> difference;  // |H_ij - H_ji| over |H_ij| + |H_ji|
-  std::vector<double> opposite;    // |H_ij + H_ji| over that
-  std::vector<double> noise;       // what the noise alone makes of either
-};
-
-MirrorComparison compare_mirrors(const Eigen::VectorXd& hz, const Channel& a, const Channel& b,
-                                 double usable_from_hz) {
-  MirrorComparison comparison;
-  for (Eigen::Index i = 0; i < hz.size(); ++i) {
-    const Complex of_a = a.entry->h[i], of_b = b.entry->h[i];
-    const double clear = kNoiseShare * std::min(std::abs(of_a), std::abs(of_b));
-    if (hz[i] <= usable_from_hz || clear * clear < std::max(a.variance[i], b.variance[i]) || clear == 0)
-      continue;
-    const double sizes = std::abs(of_a) + std::abs(of_b);
-    comparison.difference.push_back(std::abs(of_a - of_b) / sizes);
-    comparison.opposite.push_back(std::abs(of_a + of_b) / sizes);
-    comparison.noise.push_back(std::sqrt(a.variance[i] + b.variance[i]) / sizes);
-  }
-  return comparison;
-}
-
-// The median of differences, where that is no more than noise and a usual structure make.
-std::optional<double> usual(const std::vector<double>& differences, const std::vector<double>& noise) {
-  if (differences.empty()) return std::nullopt;
-  const double difference = median(differences);
-  if (difference >= std::max(kNotReciprocalShare, kNotReciprocalNoises * median(noise))) return std::nullopt;
-  return difference;
-}
-
-// What would make mirror images of cross entries that are none as measured: the other sign of one, or that
-// the responses to one force, or to both, were exchanged, where the driving points then take energy. The
-// best of these.
-std::optional<TapFinding> mended_mirrors(const Eigen::VectorXd& hz, const Channel& ab, const Channel& ba,
-                                         const MirrorComparison& measured, const Channel* aa,
-                                         const Channel* bb, double usable_from_hz) {
-  std::optional<TapFinding> best;
-  const auto try_as = [&](TapFinding finding, std::optional<double> difference) {
-    if (!difference || (best && best->least <= *difference)) return;
-    best = std::move(finding);
-    best->least = *difference;
-    best->most = median(measured.difference);
-  };
-  if (const double sum = median(measured.opposite); sum < kOpposite)
-    try_as({.kind = TapFindingKind::kOppositeMirror, .entry = ab.name(), .mirror = ba.name()}, sum);
-  if (aa == nullptr || bb == nullptr) return best;
-  const auto try_exchange = [&](TapFinding finding, const Channel& mirror, const Channel& mirrored,
-                                const Channel& driving, const Channel& other) {
-    for (const Channel* channel : {&driving, &other})
-      if (positive_share(*channel, usable_from_hz, &WindowSummary::imaginary) > kSomeSign) return;
-    const MirrorComparison then = compare_mirrors(hz, mirror, mirrored, usable_from_hz);
-    try_as(std::move(finding), usual(then.difference, then.noise));
-  };
-  try_exchange({.kind = TapFindingKind::kExchanged, .entry = aa->name(), .mirror = ba.name()}, ab, *aa, ba,
-               *bb);
-  try_exchange({.kind = TapFindingKind::kExchanged, .entry = ab.name(), .mirror = bb->name()}, *bb, ba, *aa,
-               ab);
-  try_exchange({.kind = TapFindingKind::kBothExchanged, .entry = ab.name()}, *bb, *aa, ba, ab);
-  return best;
-}
-
-void check_mirrors(const Eigen::VectorXd& hz, const std::vector<Channel>& channels, double usable_from_hz,
-                   Findings& findings) {
-  MirrorComparison all;
-  for (const Channel& ab : channels) {
-    const std::string &a = ab.entry->response, &b = ab.entry->reference;
-    const Channel* ba = find(channels, b, a);
-    if (ab.dead || a >= b || ba == nullptr) continue;
-    const MirrorComparison measured = compare_mirrors(hz, ab, *ba, usable_from_hz);
-    if (measured.difference.empty()) continue;
-    if (!usual(measured.difference, measured.noise)) {
-      if (auto finding = mended_mirrors(hz, ab, *ba, measured, find(channels, a, a), find(channels, b, b),
-                                        usable_from_hz)) {
-        findings.push_back(std::move(*finding));
-        return;
-      }
-    }
-    all.difference.insert(all.difference.end(), measured.difference.begin(), measured.difference.end());
-    all.noise.insert(all.noise.end(), measured.noise.begin(), measured.noise.end());
-  }
-  if (all.difference.empty() || usual(all.difference, all.noise)) return;
-  findings.push_back(
-      {.kind = TapFindingKind::kNotReciprocal, .least = median(all.noise), .most = median(all.difference)});
 }
 
 // Two hits make the force vanish on lines at equal distances: one period holds most of the dips.
@@ -364,7 +253,8 @@ TapReport check_tap(const dynamics::FrequencyResponse& receptance, bool zeros_ar
   check_low_noise(channels, report.findings);
   check_high_end(channels, report.findings);
   check_signs(channels, usable_from_hz, report.findings);
-  check_mirrors(hz, channels, usable_from_hz, report.findings);
+  for (TapFinding& finding : check_mirrors(hz, channels, usable_from_hz))
+    report.findings.push_back(std::move(finding));
   for (const auto& entry : receptance.entries) check_coherence(hz, entry, report.findings);
   check_peak(hz, channels, usable_from_hz, report.findings);
   report.disturbed_lines = check_disturbed_lines(hz, channels, report.findings);

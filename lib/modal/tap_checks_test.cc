@@ -255,3 +255,30 @@ TEST_CASE("responses that were exchanged are told from a structure that is not r
   const auto scaled = kinds_on(changed(1, [](Complex h, double) { return 1.5 * h; }));
   CHECK(scaled == Kinds{TapFindingKind::kNotReciprocal});
 }
+
+TEST_CASE(
+    "exchanged responses show where all four entries are much alike, and such entries are no exchange") {
+  // Modes within 9 degrees of 45: cross entries nearly equal driving points.
+  dynamics::ModalModel model = tip();
+  const std::array<double, 3> turned{0.12, -0.15, 0.1};
+  for (std::size_t k = 0; k < model.modes.size(); ++k) {
+    dynamics::Mode& mode = model.modes[k];
+    const double angle = kTwoPi / 8 + turned[k];
+    mode.psi_r =
+        Eigen::Vector2cd(std::cos(angle), std::sin(angle)) * mode.psi_r.norm() * std::sqrt(Complex(0, -1));
+    mode.psi_l = mode.psi_r;
+  }
+  dynamics::FrequencyResponse sound = dynamics::synthesize(model, usual_lines());
+  dynamics::add_noise(sound, {40.0, std::nullopt, 5});
+  for (auto& entry : sound.entries) entry.variance.resize(0);
+  CHECK(kinds_on(sound).empty());
+  const auto exchanged = [&](std::initializer_list<std::pair<std::size_t, std::size_t>> pairs) {
+    dynamics::FrequencyResponse frf = sound;
+    for (const auto& [a, b] : pairs) std::swap(frf.entries[a].h, frf.entries[b].h);
+    return frf;
+  };
+  CHECK(the(TapFindingKind::kExchanged, exchanged({{0, 2}})).entry == kXx);
+  const TapFinding y = the(TapFindingKind::kExchanged, exchanged({{1, 3}}));
+  CHECK(y.entry == kXy);
+  CHECK(y.most < 0.1);
+}

@@ -1,0 +1,163 @@
+#include "modal/mirror_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "numerics/order_statistics.h"
+
+namespace stablecut::modal {
+namespace {
+
+using Complex = std::complex<double>;
+using numerics::median;
+
+// Relative difference of mirrored entries that is said, also in units of what noise alone would make.
+constexpr double kNotReciprocalShare = 0.1, kNotReciprocalNoises = 3;
+constexpr double kOpposite = 0.3;  // of the sum of mirrored entries, below which one has the other sign
+// Logarithm of the odds from which on responses were exchanged; and what counts as an octave: so many clear
+// lines.
+constexpr double kSureExchange = 6;
+constexpr std::size_t kLeastOctave = 5;
+constexpr double kEqual = 1e-12;  // relative difference below which two values are the same
+
+// Two entries that may be mirror images of each other.
+struct Mirrors {
+  const Channel &first, &second;
+};
+
+const Channel* find(const std::vector<Channel>& channels, const std::string& response,
+                    const std::string& reference) {
+  const auto at = std::find_if(channels.begin(), channels.end(), [&](const Channel& channel) {
+    return channel.entry->response == response && channel.entry->reference == reference;
+  });
+  return at == channels.end() || at->dead ? nullptr : &*at;
+}
+
+// Whether a line stands 10 dB above the noise of both.
+bool is_clear(const Mirrors& mirrors, Eigen::Index line) {
+  const auto stands_out = [&](const Channel& channel) {
+    const double size = kNoiseShare * std::abs(channel.entry->h[line]);
+    return size > 0 && size * size >= channel.variance[line];
+  };
+  return stands_out(mirrors.first) && stands_out(mirrors.second);
+}
+
+struct LineDifference {
+  double difference;  // |H_ij - H_ji| over |H_ij| + |H_ji|
+  double opposite;    // |H_ij + H_ji| over that
+  double noise;       // what the noise alone makes of either
+};
+
+LineDifference difference_on(const Mirrors& mirrors, Eigen::Index line) {
+  const Complex a = mirrors.first.entry->h[line], b = mirrors.second.entry->h[line];
+  const double sizes = std::abs(a) + std::abs(b);
+  return {std::abs(a - b) / sizes, std::abs(a + b) / sizes,
+          std::sqrt(mirrors.first.variance[line] + mirrors.second.variance[line]) / sizes};
+}
+
+// The same on all clear lines.
+struct MirrorComparison {
+  std::vector<double> difference, opposite, noise;
+};
+
+MirrorComparison compare(const Eigen::VectorXd& hz, const Mirrors& mirrors, double usable_from_hz) {
+  MirrorComparison comparison;
+  for (Eigen::Index i = 0; i < hz.size(); ++i) {
+    if (hz[i] <= usable_from_hz || !is_clear(mirrors, i)) continue;
+    const LineDifference on = difference_on(mirrors, i);
+    comparison.difference.push_back(on.difference);
+    comparison.opposite.push_back(on.opposite);
+    comparison.noise.push_back(on.noise);
+  }
+  return comparison;
+}
+
+// Whether differences are no more than noise and a usual structure make.
+bool is_usual(const MirrorComparison& comparison) {
+  return !comparison.difference.empty() &&
+         median(comparison.difference) <
+             std::max(kNotReciprocalShare, kNotReciprocalNoises * median(comparison.noise));
+}
+
+// Logarithm of the odds that the second two are the mirror images and not the first: of a difference whose
+// size nobody knows the likelihood is its inverse, and each octave tells once.
+double odds_of(const Eigen::VectorXd& hz, const Mirrors& measured, const Mirrors& instead,
+               double usable_from_hz) {
+  const auto size_on = [](const Mirrors& mirrors, Eigen::Index line) {
+    const LineDifference on = difference_on(mirrors, line);
+    return std::hypot(on.difference, on.noise, kEqual);
+  };
+  std::map<int, std::vector<double>> octaves;
+  for (Eigen::Index i = 0; i < hz.size(); ++i) {
+    if (hz[i] <= usable_from_hz || !is_clear(measured, i) || !is_clear(instead, i)) continue;
+    octaves[std::ilogb(hz[i])].push_back(std::log(size_on(measured, i) / size_on(instead, i)));
+  }
+  double odds = 0;
+  for (const auto& [octave, logarithms] : octaves)
+    if (logarithms.size() >= kLeastOctave) odds += median(logarithms);
+  return odds;
+}
+
+// The responses to one force, or to both, were exchanged, where others than the cross entries are mirror
+// images and the driving points then take energy as they do now.
+std::optional<TapFinding> exchanged(const Eigen::VectorXd& hz, const Mirrors& cross, const Channel& aa,
+                                    const Channel& bb, double usable_from_hz) {
+  const auto given = [&](const Channel& one, const Channel& other) {
+    return std::max(positive_share(one, usable_from_hz, &WindowSummary::imaginary),
+                    positive_share(other, usable_from_hz, &WindowSummary::imaginary));
+  };
+  const double allowed = std::max(kSomeSign, given(aa, bb) + kOneSign);
+  const Channel &ab = cross.first, &ba = cross.second;
+  std::optional<TapFinding> best;
+  double most = kSureExchange;
+  const auto consider = [&](TapFinding finding, const Mirrors& instead, const Channel& driving,
+                            const Channel& other) {
+    const double odds = odds_of(hz, cross, instead, usable_from_hz);
+    const MirrorComparison then = compare(hz, instead, usable_from_hz);
+    if (odds < most || !is_usual(then) || given(driving, other) > allowed) return;
+    most = odds;
+    best = std::move(finding);
+    best->least = median(then.difference);
+    best->most = median(compare(hz, cross, usable_from_hz).difference);
+  };
+  consider({.kind = TapFindingKind::kExchanged, .entry = aa.name(), .mirror = ba.name()}, {ab, aa}, ba, bb);
+  consider({.kind = TapFindingKind::kExchanged, .entry = ab.name(), .mirror = bb.name()}, {bb, ba}, aa, ab);
+  consider({.kind = TapFindingKind::kBothExchanged, .entry = ab.name()}, {bb, aa}, ba, ab);
+  return best;
+}
+
+}  // namespace
+
+std::vector<TapFinding> check_mirrors(const Eigen::VectorXd& hz, const std::vector<Channel>& channels,
+                                      double usable_from_hz) {
+  MirrorComparison all;
+  for (const Channel& ab : channels) {
+    const std::string &a = ab.entry->response, &b = ab.entry->reference;
+    const Channel* ba = find(channels, b, a);
+    if (ab.dead || a >= b || ba == nullptr) continue;
+    const MirrorComparison measured = compare(hz, {ab, *ba}, usable_from_hz);
+    if (measured.difference.empty()) continue;
+    const Channel *aa = find(channels, a, a), *bb = find(channels, b, b);
+    if (aa != nullptr && bb != nullptr) {
+      if (auto finding = exchanged(hz, {ab, *ba}, *aa, *bb, usable_from_hz)) return {std::move(*finding)};
+    }
+    if (const double sum = median(measured.opposite); sum < kOpposite && !is_usual(measured))
+      return {{.kind = TapFindingKind::kOppositeMirror,
+               .entry = ab.name(),
+               .mirror = ba->name(),
+               .least = sum,
+               .most = median(measured.difference)}};
+    all.difference.insert(all.difference.end(), measured.difference.begin(), measured.difference.end());
+    all.noise.insert(all.noise.end(), measured.noise.begin(), measured.noise.end());
+  }
+  if (all.difference.empty() || is_usual(all)) return {};
+  return {
+      {.kind = TapFindingKind::kNotReciprocal, .least = median(all.noise), .most = median(all.difference)}};
+}
+
+}  // namespace stablecut::modal
