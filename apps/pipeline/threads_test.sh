@@ -2,6 +2,13 @@
 # The same bytes whatever the number of threads, and each time: every tool with something to share out. STABLECUT_OTHER_TOOLS names the folder
 # of another build's tools, whose bytes have to be the same too: scripts/check --all has those of a build without optimisation there.
 . "$SOURCE/apps/testing.sh"
+
+# Nor does it matter how wide a processor's registers are: compilers fuse products and sums where only the widest have that, against their orders too.
+fused=$(for library in "$(dirname "$(command -v fit-modes)")"/../lib/*/lib*.a; do
+  objdump -d --no-show-raw-insn "$library" | sed -nE "s|.*\b(vfn?m(add\|sub)[a-z0-9]*).*|$(basename "$library"): \1|p"
+done)
+check "no fused multiply-add in ${fused:-any library}" test -z "$fused"
+
 table=$data/thesis-table-6-2.json cut=$data/thesis-cut.json robot=(--robot "$data/kr360.json")
 chart=(--speed 8000:20000:9 --depth 0:3:9)
 
