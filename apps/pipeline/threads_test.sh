@@ -38,8 +38,12 @@ same "simulated cuts" cut-force --table "$table" --speed 9000 --points "$data/th
 
 fit-modes --synthesize 400:1500:220 --noise-db 50 "$table" >tap.json
 same "modes" fit-modes --quiet tap.json
+/usr/bin/python3 "$SOURCE/apps/fit-modes/simulate_taps.py" .
+same "records of taps" fit-modes --quiet --taps x=x.csv
 joint-stiffness --quiet "${robot[@]}" "$data/kr360-loads.csv" >stiffness.json
 same "joint stiffness" joint-stiffness --quiet "${robot[@]}" "$data/kr360-loads.csv"
 same "poses" best-pose --quiet "${robot[@]}" --height 1200 --x 1000:2000:4 --y 0:1000:4 stiffness.json
 same "a path" best-pose --quiet "${robot[@]}" --path "$data/zigzag-path.json" stiffness.json
 same "an assembly" rcsa-couple --quiet "$data/liu-assembly.json"
+same "a joint" rcsa-couple --quiet --identify "$data/carbide-tap.json" "$data/carbide-in-collet.json"
+same "coefficients" cut-force --quiet --identify "$data/slot-forces.csv" "$data/slotting-tool.json"
