@@ -102,6 +102,7 @@ Middle middle_of(const std::vector<double>& values, double precision) {
   if (values.empty()) return middle;
   middle.value = numerics::median(values);
   std::vector<double> away;
+  away.reserve(values.size());
   for (const double value : values) away.push_back(std::abs(value - middle.value));
   const auto n = static_cast<double>(values.size());
   middle.deviation = std::max(kDeviationOfMedian * numerics::median(std::move(away)) / std::sqrt(n),
@@ -285,7 +286,9 @@ bool matters(const FitData& data, const EntryMismatch& mismatch) {
 double best_delay(double highest, const std::function<double(double)>& value) {
   const double step = std::max(kTwoPi / (kStepsPerPeriod * highest), kMostDelay / kMostTrials);
   double best = 0, most = value(0);
-  for (double delay = step; delay <= kMostDelay; delay += step) {
+  const auto steps = static_cast<int>(kMostDelay / step);
+  for (int k = 1; k <= steps; ++k) {
+    const double delay = k * step;
     for (const double of_either_sign : {delay, -delay}) {
       const double now = value(of_either_sign);
       if (!(now > most)) continue;

@@ -203,8 +203,8 @@ std::vector<EntryMismatch> proved_mismatches(const GroupFit& fit, const CurveVar
   while (proved.size() < kMostMismatches) {
     std::optional<Proven> best;
     for (const EntryMismatch& suggested : suggested_mismatches(now.data, now.start_poles, is_driving_point)) {
-      std::optional<Proven> better = proof.of(now, suggested);
-      if (better && (!best || better->gain > best->gain)) best = std::move(better);
+      const std::optional<Proven> better = proof.of(now, suggested);
+      if (better && (!best || better->gain > best->gain)) best = better;
     }
     if (!best || !matters(fit.data, best->mismatch)) break;
     proved.push_back(best->mismatch);
