@@ -159,6 +159,7 @@ Measurement TapOptions::read(const MeasurementOptions& general, const Measuremen
   Measurement result;
   const std::vector<Column> columns = read_columns(general, read_input, result);
   std::vector<taps::TapColumn> data;
+  data.reserve(columns.size());
   for (const Column& column : columns) data.push_back(column.data);
   taps::TapChoice choice;
   choice.hits = {trigger_n_, length_s_, pre_trigger_s_};

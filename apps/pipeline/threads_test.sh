@@ -2,6 +2,13 @@
 # The same bytes whatever the number of threads, and each time: every tool with something to share out. STABLECUT_OTHER_TOOLS names the folder
 # of another build's tools, whose bytes have to be the same too: scripts/check --all has those of a build without optimisation there.
 . "$SOURCE/apps/testing.sh"
+
+# Nor does it matter how wide a processor's registers are: compilers fuse products and sums where only the widest have that, against their orders too.
+fused=$(for library in "$(dirname "$(command -v fit-modes)")"/../lib/*/lib*.a; do
+  objdump -d --no-show-raw-insn "$library" | sed -nE "s|.*\b(vfn?m(add\|sub)[a-z0-9]*).*|$(basename "$library"): \1|p"
+done)
+check "no fused multiply-add in ${fused:-any library}" test -z "$fused"
+
 table=$data/thesis-table-6-2.json cut=$data/thesis-cut.json robot=(--robot "$data/kr360.json")
 chart=(--speed 8000:20000:9 --depth 0:3:9)
 
@@ -31,8 +38,12 @@ same "simulated cuts" cut-force --table "$table" --speed 9000 --points "$data/th
 
 fit-modes --synthesize 400:1500:220 --noise-db 50 "$table" >tap.json
 same "modes" fit-modes --quiet tap.json
+/usr/bin/python3 "$SOURCE/apps/fit-modes/simulate_taps.py" .
+same "records of taps" fit-modes --quiet --taps x=x.csv
 joint-stiffness --quiet "${robot[@]}" "$data/kr360-loads.csv" >stiffness.json
 same "joint stiffness" joint-stiffness --quiet "${robot[@]}" "$data/kr360-loads.csv"
 same "poses" best-pose --quiet "${robot[@]}" --height 1200 --x 1000:2000:4 --y 0:1000:4 stiffness.json
 same "a path" best-pose --quiet "${robot[@]}" --path "$data/zigzag-path.json" stiffness.json
 same "an assembly" rcsa-couple --quiet "$data/liu-assembly.json"
+same "a joint" rcsa-couple --quiet --identify "$data/carbide-tap.json" "$data/carbide-in-collet.json"
+same "coefficients" cut-force --quiet --identify "$data/slot-forces.csv" "$data/slotting-tool.json"

@@ -49,6 +49,22 @@ rcsa-couple --identify stiff.json "$assembly" -o stiff-found.json 2>log
 check_jq "stiffness yes, damping no" stiff-found.json '.identifiable == [true, false, true, false]'
 check "and says so" grep -Eq 'c1 (is not identifiable: its standard deviation is [0-9]+ %|lies at its bound)' log
 
+# Whoever takes such values hears of each.
+rcsa-couple --joint found.json "$assembly" -o silent.json 2>log
+check "nothing is said of values that are told" test ! -s log
+unknown='; what it does at another overhang or in another band is not known$'
+jq '.x.identifiable[1] = false | .x.c1_n_s_per_m = 20 | .x.std.c1_n_s_per_m = 9 | .y = .x' found.json >untold.json
+rcsa-couple --joint untold.json "$assembly" -o used.json 2>log
+check "a value that is not told, once for both" test "$(wc -l <log)" = 1
+check "its place, value and deviation" grep -q "^rcsa-couple: warning: untold.json: /x/c1_n_s_per_m and in y: 20: is not identifiable: its standard deviation is 45 % of its value$unknown" log
+jq '.y.identifiable[1] = true | .y.identifiable[3] = false | .y.at_bound[3] = true | .y.c2_n_m_s_per_rad = 0 | .y.std.c2_n_m_s_per_rad = null | del(.x.std)' untold.json >apart.json
+rcsa-couple --joint apart.json "$assembly" -o used.json 2>log
+check "in x and y apart" test "$(wc -l <log)" = 2
+check "in x, without its deviation" grep -q "apart.json: /x/c1_n_s_per_m: 20: is not identifiable$unknown" log
+check "in y, at its bound" grep -q "apart.json: /y/c2_n_m_s_per_rad: 0: lies at its bound$unknown" log
+rcsa-couple --joint stiff-found.json "$assembly" -o used.json 2>log
+check "of one direction" grep -Eq "stiff-found.json: /c1_n_s_per_m: .*$unknown" log
+
 # A rigid joint: nothing can be told, and no numbers come. With bounds that somebody chose, one that lies at them is an answer.
 jq '.joint = "rigid" | .frequency_hz = {from: 100, to: 2000, count: 200}' "$data/liu-assembly.json" >rigid-assembly.json
 rcsa-couple rigid-assembly.json -o rigid-tip.json

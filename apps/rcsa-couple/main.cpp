@@ -120,6 +120,7 @@ class RcsaCouple : public cli::Tool {
         warn(joint.source.name + ": identified in " + joints.only + " only: taken for " +
              (joints.only == "x" ? "y" : "x") + " as well");
       }
+      for (const auto& value : joints.doubts) warn(words_of(value));
       document.assembly.set_joints({joints.joint[0], joints.joint[1]});
     }
     write_responses(main_output(), document);

@@ -134,6 +134,18 @@ std::string words_of(const document::DoubtfulSize& size) {
          number_text(1e3 * mm_from_metres(metres)) + " mm meant? Sizes are expected in mm, not in m";
 }
 
+std::string words_of(const document::DoubtfulJointValue& value) {
+  std::string text = value.place + ": " + number_text(value.value) + ": ";
+  if (value.at_bound)
+    text += "lies at its bound";
+  else if (value.relative_deviation)
+    text += "is not identifiable: its standard deviation is " + percent_text(*value.relative_deviation) +
+            " of its value";
+  else
+    text += "is not identifiable";
+  return text + "; what it does at another overhang or in another band is not known";
+}
+
 std::vector<std::string> warnings_of(const receptance::IdentifiedJoints& joints,
                                      const receptance::JointBounds& bounds,
                                      receptance::JointObjective objective, const std::string& tap) {

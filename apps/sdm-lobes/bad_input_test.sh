@@ -94,6 +94,18 @@ jq '.kt_n_per_mm2 = 700' "$cut" >other.json
 refused 65 '^sdm-lobes: part1.json: /cut: .*expected the cut and chart of this run' sdm-lobes --cut other.json "$table" \
   --speed 9000:12000:4 --depth 0:1:3 --merge part1.json --merge part2.json
 refused 65 '^sdm-lobes: part1.json: /spectral_radius: .*expected a grid as in this run' sdm-lobes "${small[@]}" --limit-only --merge part1.json --merge part2.json
+part_with() {
+  jq "$1" part1.json >changed.json
+  refused 65 "^sdm-lobes: changed.json: $2" sdm-lobes "${small[@]}" --merge changed.json --merge part2.json
+}
+part_with '.method = "sdm"' '/method: "sdm": expected the method of this run'
+part_with '.speed_rpm[0] = 1' "/speed_rpm: a list of 2: expected this part's speeds"
+part_with '.depth_mm |= .[1:]' '/depth_mm: a list of 2: expected the depths of this run'
+part_with '.samples = 5' '/samples: 5: expected the number of samples of this run'
+part_with '.spectral_radius |= .[1:]' '/spectral_radius: a list of 2: expected 3 rows, one for each depth'
+part_with '.spectral_radius[1] |= .[1:]' '/spectral_radius/1: a list of 1: expected a number for each speed'
+part_with '.limit |= .[1:]' '/limit: a list of 1: expected an entry for each speed'
+part_with '.crossings = [{speed_rpm: 1}]' "/crossings/0/speed_rpm: 1: expected one of this part's speeds"
 check "nothing was written" test ! -e result.json
 
 # Tested cuts.

@@ -9,6 +9,7 @@
 #include "base/number_text.h"
 #include "base/units.h"
 #include "dynamics/interpolation.h"
+#include "dynamics/noise.h"
 
 namespace stablecut::dynamics {
 namespace {
@@ -185,6 +186,13 @@ Eigen::VectorXd known_variance(const FrequencyResponseEntry& entry) {
   const Eigen::ArrayXd coherence = entry.coherence.array().max(kLeastCoherence);
   const double averages = std::max(*entry.averages - 1, 1.0);
   return without_zeros((1 - coherence) / (coherence * averages) * entry.h.array().abs2(), entry.h);
+}
+
+Eigen::VectorXd weighing_variance(const FrequencyResponseEntry& entry, const Eigen::VectorXd& frequency_hz) {
+  Eigen::VectorXd variance = known_variance(entry);
+  if (variance.size() == 0 || !entry.averages) return variance;
+  return pooled_variance(variance, std::max(*entry.averages - 1, 1.0), entry.h.cwiseAbs(),
+                         floor_shapes(frequency_hz));
 }
 
 }  // namespace stablecut::dynamics

@@ -80,4 +80,8 @@ bool same_values(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 /// nearest lines with a variance have.
 Eigen::VectorXd known_variance(const FrequencyResponseEntry& entry);
 
+/// The same to weigh lines by: where it rests on few averages, pooled over lines (`pooled_variance`,
+/// noise.h). `frequency_hz` [lines], above 0.
+Eigen::VectorXd weighing_variance(const FrequencyResponseEntry& entry, const Eigen::VectorXd& frequency_hz);
+
 }  // namespace stablecut::dynamics

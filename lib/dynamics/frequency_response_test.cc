@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "dynamics/noise.h"
 
 using namespace stablecut;
 using namespace stablecut::dynamics;
@@ -98,6 +99,21 @@ TEST_CASE("variance: given, by coherence, or unknown") {
   CHECK(known_variance(entry) == Eigen::Vector2d(5, 20));
   entry.variance = Eigen::Vector2d(0, 0);
   CHECK(known_variance(entry) == Eigen::Vector2d(0, 0));
+}
+
+TEST_CASE("a variance that rests on few averages is pooled before it weighs") {
+  constexpr Eigen::Index kLines = 60;
+  const Eigen::VectorXd hz = Eigen::VectorXd::LinSpaced(kLines, 10, 600);
+  FrequencyResponseEntry entry;
+  entry.h = Eigen::VectorXcd::Constant(kLines, {3, 4});
+  CHECK(weighing_variance(entry, hz).size() == 0);
+  entry.variance = Eigen::VectorXd::LinSpaced(kLines, 0.5, 1.5).cwiseAbs2();
+  CHECK(weighing_variance(entry, hz) == entry.variance);  // nothing says on what it rests
+  entry.averages = 2;
+  CHECK(weighing_variance(entry, hz) ==
+        pooled_variance(entry.variance, 1, entry.h.cwiseAbs(), floor_shapes(hz)));
+  entry.averages = 40;
+  CHECK(weighing_variance(entry, hz) == entry.variance);
 }
 
 TEST_CASE("without some lines") {

@@ -107,6 +107,7 @@ Middle middle_of(const std::vector<double>& values, double precision) {
   if (values.empty()) return middle;
   middle.value = numerics::median(values);
   std::vector<double> away;
+  away.reserve(values.size());
   for (const double value : values) away.push_back(std::abs(value - middle.value));
   const auto n = static_cast<double>(values.size());
   middle.deviation = std::max(kDeviationOfMedian * numerics::median(std::move(away)) / std::sqrt(n),
@@ -292,7 +293,9 @@ double delays_tried(double highest) { return 2 * kMostDelay / delay_step(highest
 double best_delay(double highest, const std::function<double(double)>& value) {
   const double step = delay_step(highest);
   double best = 0, most = value(0);
-  for (double delay = step; delay <= kMostDelay; delay += step) {
+  const auto steps = static_cast<int>(kMostDelay / step);
+  for (int k = 1; k <= steps; ++k) {
+    const double delay = k * step;
     for (const double of_either_sign : {delay, -delay}) {
       const double now = value(of_either_sign);
       if (!(now > most)) continue;

@@ -7,7 +7,6 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "base/units.h"
-#include "dynamics/noise.h"
 #include "modal/explained.h"
 #include "modal/fitted_table.h"
 #include "modal/mismatch_proof.h"
@@ -86,12 +85,8 @@ CurveVariances known_variances(const dynamics::FrequencyResponse& measured, cons
   CurveVariances result;
   for (const std::size_t e : group.entries) {
     const auto& entry = measured.entries[e];
-    Eigen::VectorXd variance = dynamics::known_variance(entry);
+    Eigen::VectorXd variance = dynamics::weighing_variance(entry, measured.frequency_hz);
     if (variance.size() == 0) return {};
-    if (entry.averages) {
-      variance = dynamics::pooled_variance(variance, std::max(*entry.averages - 1, 1.0), entry.h.cwiseAbs(),
-                                           dynamics::floor_shapes(measured.frequency_hz));
-    }
     result.push_back(std::move(variance));
   }
   return result;

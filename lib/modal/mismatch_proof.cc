@@ -224,8 +224,8 @@ std::vector<EntryMismatch> proved_mismatches(const GroupFit& fit, const CurveVar
   for (std::size_t i = 0; i < kMostMismatches; ++i) {
     std::optional<Proven> best;
     for (const EntryMismatch& suggested : suggested_mismatches(now.data, now.start_poles, is_driving_point)) {
-      std::optional<Proven> better = proof.of(now, suggested);
-      if (better && (!best || better->gain > best->gain)) best = std::move(better);
+      const std::optional<Proven> better = proof.of(now, suggested);
+      if (better && (!best || better->gain > best->gain)) best = better;
     }
     if (!best) break;
     add(best->mismatch, proved);

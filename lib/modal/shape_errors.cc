@@ -149,6 +149,7 @@ void add_imitations(const FitData& data, const ModeParameters& parameters, const
   if (doubtful.empty()) return;
   const Eigen::MatrixXd inverse = inverse_normal_matrix(normal);
   std::vector<std::vector<Eigen::Index>> removals;
+  removals.reserve(doubtful.size() + 1);
   for (const Eigen::Index s : doubtful) removals.push_back({s});
   if (doubtful.size() > 1) removals.push_back(doubtful);
   for (const auto& removed : removals)

@@ -170,8 +170,10 @@ std::optional<double> time_between_hits(const Eigen::VectorXd& hz, const Eigen::
   const double band = hz[lines - 1] - hz[0];
   if (!(power > 0) || !(band > 0)) return std::nullopt;
   double most = 0, delay = 0;
-  for (double count = kLeastDips; count <= std::min(kMostDips, static_cast<double>(lines) / kLinesPerDip);
-       count += kDipStep) {
+  const double most_dips = std::min(kMostDips, static_cast<double>(lines) / kLinesPerDip);
+  const auto counts = static_cast<int>(std::floor((most_dips - kLeastDips) / kDipStep)) + 1;
+  for (int k = 0; k < counts; ++k) {
+    const double count = kLeastDips + k * kDipStep;
     const Complex turn_s(0, kTwoPi * count / band);
     Complex sum = 0;
     for (Eigen::Index i = 0; i < lines; ++i) sum += (dips[i] - mean) * std::exp(turn_s * (hz[i] - hz[0]));

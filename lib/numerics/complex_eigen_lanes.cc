@@ -22,7 +22,8 @@ constexpr double kLeastNorm = 1e-140;
 // k) and f in `factors`. w holds n blocks.
 STABLECUT_WIDE void reduce_to_hessenberg(double* h, Eigen::Index n, double* reflectors, double* factors,
                                          double* w) {
-  const auto at = [&](Eigen::Index i, Eigen::Index j) { return h + (i * n + j) * kComplexLanes; };
+  const auto at = [&](Eigen::Index i, Eigen::Index j)
+                      STABLECUT_INLINE_LAMBDA { return h + (i * n + j) * kComplexLanes; };
   for (Eigen::Index k = 0; k + 2 < n; ++k) {
     Lanes square{};
     for (Eigen::Index i = k + 1; i < n; ++i) {
@@ -97,7 +98,8 @@ STABLECUT_WIDE void sweep(double* h, Eigen::Index n, Eigen::Index first, Eigen::
   const Lanes low = load_lanes(lows), high = load_lanes(highs);
   const ComplexLanes shift = load_complex(shifts);
   const Lanes zero{}, one = zero + 1.0;
-  const auto at = [&](Eigen::Index i, Eigen::Index j) { return h + (i * n + j) * kComplexLanes; };
+  const auto at = [&](Eigen::Index i, Eigen::Index j)
+                      STABLECUT_INLINE_LAMBDA { return h + (i * n + j) * kComplexLanes; };
   // H - shift = Q R from above, then R Q + shift, a column behind.
   for (Eigen::Index k = first; k <= last; ++k) {
     const Lanes here = zero + static_cast<double>(k);
@@ -156,7 +158,8 @@ STABLECUT_WIDE void row_norms(const double* h, Eigen::Index n, double* norms) {
 STABLECUT_WIDE void triangular_form(const double* h, Eigen::Index n, const double* shifts,
                                     const double* norms, double* r, double* rotations) {
   const ComplexLanes shift = load_complex(shifts);
-  const auto at = [&](Eigen::Index i, Eigen::Index j) { return r + (i * n + j) * kComplexLanes; };
+  const auto at = [&](Eigen::Index i, Eigen::Index j)
+                      STABLECUT_INLINE_LAMBDA { return r + (i * n + j) * kComplexLanes; };
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = std::max<Eigen::Index>(i - 1, 0); j < n; ++j)
       store_complex(load_complex(h + (i * n + j) * kComplexLanes), at(i, j));
@@ -195,10 +198,9 @@ STABLECUT_INLINE void normalise(double* x, Eigen::Index n) {
 // Inverse iteration with Q R: the right vector solves R x = Q^H x, the left one R^H w = y, y = Q w.
 STABLECUT_WIDE void inverse_iteration(const double* r, const double* rotations, Eigen::Index n, double* right,
                                       double* left) {
-  const auto at = [&](Eigen::Index i, Eigen::Index j) {
-    return load_complex(r + (i * n + j) * kComplexLanes);
-  };
-  const auto rotation = [&](Eigen::Index k) {
+  const auto at = [&](Eigen::Index i, Eigen::Index j)
+                      STABLECUT_INLINE_LAMBDA { return load_complex(r + (i * n + j) * kComplexLanes); };
+  const auto rotation = [&](Eigen::Index k) STABLECUT_INLINE_LAMBDA {
     return Rotation{load_lanes(rotations + 3 * k * kLanes), load_complex(rotations + (3 * k + 1) * kLanes)};
   };
   for (Eigen::Index i = 0; i < n; ++i) {

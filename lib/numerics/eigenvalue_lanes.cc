@@ -129,7 +129,8 @@ STABLECUT_WIDE void sweep(double* h, Eigen::Index stride, Eigen::Index first, Ei
                           const double* shift_products, double* reflections) {
   const Lanes low = load_lanes(lows), high = load_lanes(highs);
   const Lanes shift_sum = load_lanes(shift_sums), shift_product = load_lanes(shift_products);
-  const auto at = [&](Eigen::Index i, Eigen::Index j) { return h + i * stride + j * kLanes; };
+  const auto at = [&](Eigen::Index i, Eigen::Index j)
+                      STABLECUT_INLINE_LAMBDA { return h + i * stride + j * kLanes; };
   // Masks as numbers, 1 or 0: kept as such between statements they would be taken apart.
   const Lanes zero{}, one = Lanes{} + 1.0;
   for (Eigen::Index k = first; k < last; ++k) {

@@ -16,6 +16,9 @@
 #define STABLECUT_WIDE
 #endif
 #define STABLECUT_INLINE inline __attribute__((always_inline))
+/// Put behind the parameters of a lambda inside such a function: left as a function of its own it would be
+/// built for the narrowest registers only, and pass vectors in other places than its caller looks for them.
+#define STABLECUT_INLINE_LAMBDA __attribute__((always_inline))
 
 namespace stablecut::numerics {
 

@@ -13,7 +13,7 @@ JointData data_in_direction(const Assembly& assembly, int direction,
   for (Eigen::Index i = 0; i < data.omega_rad_per_s.size(); ++i)
     data.plane.push_back(assembly.plane(direction, i));
   data.tip = entry.h;
-  data.variance = dynamics::known_variance(entry);
+  data.variance = dynamics::weighing_variance(entry, assembly.frequency_hz);
   return data;
 }
 

@@ -3,8 +3,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "base/error.h"
+#include "numerics/random.h"
 #include "receptance/assembly_identification.h"
 #include "receptance/assembly_response.h"
 #include "receptance/receptance_fixtures_test.h"
@@ -125,4 +127,36 @@ TEST_CASE("the joints of an assembly from its tip, direction by direction") {
   joints = found(round);
   CHECK_FALSE(joints.estimate[0].has_value());
   CHECK(joints.estimate[1].has_value());
+}
+
+TEST_CASE("taps of two averages: intervals cover, as their variance is pooled over lines") {
+  const Assembly model = two_joints();
+  const std::array<JointValues, 2> truth = {values_of(*model.held[0].joint), values_of(*model.held[1].joint)};
+  dynamics::FrequencyResponse clean = assembly_response(model, {}, 1);
+  std::mt19937_64 random(11);
+  int counted = 0, covered = 0;
+  for (int run = 0; run < 40; ++run) {
+    dynamics::FrequencyResponse tap = clean;
+    for (dynamics::FrequencyResponseEntry& entry : tap.entries) {
+      entry.averages = 2;
+      entry.variance.resize(entry.h.size());
+      for (Eigen::Index i = 0; i < entry.h.size(); ++i) {
+        // One degree of freedom, independent of the mean's error.
+        const double deviation = 0.02 * std::abs(entry.h[i]);
+        entry.variance[i] = std::norm(deviation * numerics::unit_complex_normal(random));
+        entry.h[i] += deviation * numerics::unit_complex_normal(random);
+      }
+    }
+    const IdentifiedJoints found = identify_joints(model, tip_entries(tap), {}, JointObjective::kComplex, 2);
+    for (std::size_t d = 0; d < 2; ++d) {
+      const JointValues values = values_of(found.estimate[d]->joint);
+      for (std::size_t i = 0; i < 4; ++i) {
+        if (!found.estimate[d]->identifiable[i]) continue;
+        ++counted;
+        covered += std::abs(values[i] - truth[d][i]) < 1.96 * found.estimate[d]->deviation[i] ? 1 : 0;
+      }
+    }
+  }
+  CHECK(counted > 200);
+  CHECK(covered > 0.89 * counted);  // 94 % of 200 to 320: three of their deviations lower
 }

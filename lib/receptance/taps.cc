@@ -36,7 +36,7 @@ Taps taps_of(const dynamics::FrequencyResponse& measured, const Eigen::VectorXd&
       measured, std::numeric_limits<double>::min(), std::numeric_limits<double>::infinity()));
   if (frf.frequency_hz.size() == 0) throw InvalidArgument("no line above 0 Hz");
   for (auto& entry : frf.entries) {
-    entry.variance = dynamics::known_variance(entry);
+    entry.variance = dynamics::weighing_variance(entry, frf.frequency_hz);
     if (entry.variance.size() == 0)
       entry.variance = dynamics::estimated_variance(frf.frequency_hz, entry.h, entry.h.cwiseAbs(),
                                                     dynamics::floor_shapes(frf.frequency_hz));

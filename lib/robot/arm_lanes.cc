@@ -57,7 +57,7 @@ struct HomeTarget {
 };
 
 STABLECUT_INLINE HomeTarget target_in_home(const ArmConstants& k, const ArmTarget& target) {
-  const auto turned = [&k](const double v[3], double w[3]) {
+  const auto turned = [&k](const double v[3], double w[3]) STABLECUT_INLINE_LAMBDA {
     for (int i = 0; i < 3; ++i) w[i] = k.home[i][0] * v[0] + k.home[i][1] * v[1] + k.home[i][2] * v[2];
   };
   HomeTarget home;
@@ -198,7 +198,7 @@ STABLECUT_INLINE void store_angles(const ArmConstants& k, const Shoulder& should
   const Four theta4 = angle_of(wrist.s4, wrist.c4), theta5 = angle_of(wrist.s5, wrist.c5),
              theta6 = angle_of(wrist.s6, wrist.c6);
   Four angles[6] = {};
-  const auto joint = [&](int j, const Four& theta, Four margin) {
+  const auto joint = [&](int j, const Four& theta, Four margin) STABLECUT_INLINE_LAMBDA {
     const JointLanes lanes =
         coupled && k.follows[j] >= 0 ? coupled_joint_lanes(k, j, theta, angles) : joint_lanes(k, j, theta);
     angles[j] = lanes.angle;
@@ -285,19 +285,20 @@ STABLECUT_WIDE void arm_compliances(const ArmLanes& lanes, const double point[3]
   const double xx = c1 * v1x * v1x + c6 * v6x * v6x, xy = c1 * v1x * v1y + c6 * v6x * v6y,
                xz = c6 * v6x * v6z;
   const double yy = c1 * v1y * v1y + c6 * v6y * v6y, yz = c6 * v6y * v6z, zz = c6 * v6z * v6z;
-  const auto along = [](const double axis[3][kArms], const Four& x, const Four& y, const Four& z, Four v[3]) {
-    const Four ax = load(axis[0]), ay = load(axis[1]), az = load(axis[2]);
-    v[0] = ay * z - az * y;
-    v[1] = az * x - ax * z;
-    v[2] = ax * y - ay * x;
-  };
+  const auto along = [](const double axis[3][kArms], const Four& x, const Four& y, const Four& z, Four v[3])
+                         STABLECUT_INLINE_LAMBDA {
+                           const Four ax = load(axis[0]), ay = load(axis[1]), az = load(axis[2]);
+                           v[0] = ay * z - az * y;
+                           v[1] = az * x - ax * z;
+                           v[2] = ax * y - ay * x;
+                         };
   const Four zero = {};
   Four v2[3], v3[3], v4[3], v5[3];
   along(lanes.axis2, px - load(lanes.point2[0]), py - load(lanes.point2[1]), pz - load(lanes.point2[2]), v2);
   along(lanes.axis2, px - load(lanes.point3[0]), py - load(lanes.point3[1]), pz - load(lanes.point3[2]), v3);
   along(lanes.axis4, zero + rx, zero + ry, zero + rz, v4);
   along(lanes.axis5, zero + rx, zero + ry, zero + rz, v5);
-  const auto entry = [&](int a, int b) {
+  const auto entry = [&](int a, int b) STABLECUT_INLINE_LAMBDA {
     return c2 * v2[a] * v2[b] + c3 * v3[a] * v3[b] + (c4 * v4[a] * v4[b] + c5 * v5[a] * v5[b]);
   };
   store(xx + entry(0, 0), compliance[0]);

@@ -24,10 +24,10 @@ STABLECUT_WIDE void arms_away_from_singularities(const ArmLanes& lanes, const do
                                                  bool away[kArms]) {
   const Four zero = {}, one = zero + 1;
   Four j[6][6], axis[3], to_point[3];
-  const auto arm_from = [&](const double at[3][kArms]) {
+  const auto arm_from = [&](const double at[3][kArms]) STABLECUT_INLINE_LAMBDA {
     for (int d = 0; d < 3; ++d) to_point[d] = point[d] - load(at[d]);
   };
-  const auto axis_of = [&](const double of[3][kArms]) {
+  const auto axis_of = [&](const double of[3][kArms]) STABLECUT_INLINE_LAMBDA {
     for (int d = 0; d < 3; ++d) axis[d] = load(of[d]);
   };
   for (int d = 0; d < 3; ++d) axis[d] = d == 2 ? one : zero, to_point[d] = zero + point[d];

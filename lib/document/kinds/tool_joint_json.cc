@@ -32,6 +32,33 @@ receptance::ToolJoint joint_at(const Node& node) {
   return tool_joint_from(node);
 }
 
+// One flag per value; all `missing` without the field.
+std::array<bool, 4> flags_at(const Node& node, const char* name, bool missing) {
+  std::array<bool, 4> flags;
+  flags.fill(missing);
+  const auto list = node.find(name);
+  if (!list) return flags;
+  const std::vector<Node> items = list->items();
+  if (items.size() != flags.size()) list->fail("expected a list of 4: of k1, c1, k2, c2");
+  for (std::size_t i = 0; i < flags.size(); ++i) flags[i] = items[i].boolean();
+  return flags;
+}
+
+void find_doubts(const Node& node, const std::string& directions, std::vector<DoubtfulJointValue>& doubts) {
+  const std::array<bool, 4> identifiable = flags_at(node, "identifiable", true),
+                            at_bound = flags_at(node, "at_bound", false);
+  const receptance::JointValues values = receptance::values_of(tool_joint_from(node));
+  const auto deviations = node.find("std");
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    std::optional<double> relative;
+    const auto deviation = deviations ? deviations->find(kJointFields[i]) : std::nullopt;
+    if (deviation && !deviation->is_null()) relative = deviation->number(kNotNegative) / values[i];
+    if (identifiable[i]) continue;
+    doubts.push_back({node.source().name + ": " + node.at(kJointFields[i]).pointer() + directions, values[i],
+                      at_bound[i], values[i] > 0 ? relative : std::nullopt});
+  }
+}
+
 }  // namespace
 
 receptance::ToolJoint tool_joint_from(const Node& node) {
@@ -63,10 +90,17 @@ ToolJoints tool_joints_from_json(const Json& document, const Source& source) {
   if (!root.has("x") && !root.has("y")) {
     const receptance::ToolJoint joint = joint_at(root);
     const auto direction = root.find("direction");
-    return {{joint, joint}, direction ? direction->word({"x", "y"}) : ""};
+    ToolJoints joints{{joint, joint}, direction ? direction->word({"x", "y"}) : "", {}};
+    find_doubts(root, "", joints.doubts);
+    return joints;
   }
   root.check_document_names({"lines", "band_hz", "x", "y"});
-  return {{joint_at(root.at("x")), joint_at(root.at("y"))}, ""};
+  const Node x = root.at("x"), y = root.at("y");
+  ToolJoints joints{{joint_at(x), joint_at(y)}, "", {}};
+  const bool same = x.json() == y.json();
+  find_doubts(x, same ? " and in y" : "", joints.doubts);
+  if (!same) find_doubts(y, "", joints.doubts);
+  return joints;
 }
 
 }  // namespace stablecut::document

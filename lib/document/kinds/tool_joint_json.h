@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "document/text/node.h"
 #include "receptance/joint_identification.h"
@@ -24,9 +25,18 @@ Json tool_joint_to_json(const ToolJointDocument& document);
 /// The four values of {"k1_n_per_m", ...}. Throws DataError.
 receptance::ToolJoint tool_joint_from(const Node& node);
 
+/// A value that its identification calls not identifiable.
+struct DoubtfulJointValue {
+  std::string place;  ///< document and JSON pointer, as messages name it
+  double value = 0;   ///< in the unit of its field
+  bool at_bound = false;
+  std::optional<double> relative_deviation;  ///< standard deviation over the value, where the document has it
+};
+
 struct ToolJoints {
   std::array<receptance::ToolJoint, 2> joint;  ///< in x and in y
   std::string only;  ///< the one direction that was identified, whose joint serves both; else empty
+  std::vector<DoubtfulJointValue> doubts;  ///< once where x and y are the same
 };
 
 /// Throws DataError.

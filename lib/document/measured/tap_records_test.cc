@@ -137,6 +137,17 @@ TEST_CASE("what is no record of a tap is refused with its place") {
   CHECK(starts(refusal(head + "0,1,2\n1,2,3\n3,2,3\n4,2,3\n5,1,2\n6,1,2\n7,1,2\n8,1,2\n"),
                "taps.csv: line 2: 3 s: expected times in equal steps"));
   CHECK(starts(refusal(head), "taps.csv: no rows of numbers"));
+  CHECK(starts(refusal("0,1\n1,2\n"), "taps.csv: line 1: 2 columns: expected time, force and responses"));
+  CHECK(starts(refusal("time (s),t (ms),force (N),acc_x (g)\n0,1,2,3\n"),
+               "taps.csv: line 1: \"t (ms)\": expected one column of times"));
+  CHECK(starts(refusal("time (s),force (N),fx (N),acc_x (g)\n0,1,2,3\n"),
+               "taps.csv: line 1: \"fx (N)\": expected one column of force"));
+  CHECK(starts(refusal("time (s),force (N),ax (g),-ax (g)\n0,1,2,3\n1,2,3,4\n"),
+               "taps.csv: line 2: x: expected one response in each direction"));
+  CHECK(starts(refusal("time (s),force (furlong),acc_x (g)\n0,1,2\n1,2,3\n"),
+               "taps.csv: line 1: furlong: expected a unit of force"));
+  CHECK(starts(refusal("time (s),force (N),acc_x (furlong)\n0,1,2\n1,2,3\n"),
+               "taps.csv: line 1: furlong: expected a unit of a motion"));
 }
 
 TEST_CASE("rates from times as they are written") {
