@@ -287,6 +287,36 @@ void judge_entries(const dynamics::FrequencyResponse& measured, const std::vecto
   }
 }
 
+// Modes that are reciprocal but for one factor; nothing more where entries do not fit together.
+void judge_reciprocity(const dynamics::FrequencyResponse& measured, ModalFit& fit) {
+  if (std::any_of(fit.findings.begin(), fit.findings.end(), [](const FitFinding& finding) {
+        return finding.kind == FitFindingKind::kScaled || finding.kind == FitFindingKind::kDelayed;
+      }))
+    return;
+  const std::vector<std::string>& dofs = fit.model.dofs;
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    for (std::size_t j = i + 1; j < dofs.size(); ++j) {
+      if (measured.find(dofs[i], dofs[j]) == nullptr || measured.find(dofs[j], dofs[i]) == nullptr) continue;
+      const auto factor = reciprocity_factor(fit.model, static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      if (factor)
+        fit.findings.push_back({.kind = FitFindingKind::kOneFactor,
+                                .missing = {{dofs[i], dofs[j]}, {dofs[j], dofs[i]}},
+                                .reciprocity = *factor});
+    }
+  }
+}
+
+// Natural frequencies that differ between forces, or between responses.
+void judge_poles(const std::vector<Group>& groups, const std::vector<GroupFit>& fits, ModalFit& fit) {
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const std::optional<PoleShift> shift = pole_shift(fits[g]);
+    if (!shift) continue;
+    fit.findings.push_back({.kind = FitFindingKind::kShifted,
+                            .shift = *shift,
+                            .direction = groups[g].directions[shift->direction]});
+  }
+}
+
 // What the modes leave of all curves, beyond their noise: |model - h| / |h|, norms over lines and curves.
 double error_beyond_noise(const std::vector<GroupFit>& fits) {
   double left = 0, square = 0;
@@ -346,6 +376,8 @@ void judge(const dynamics::FrequencyResponse& measured, const std::vector<Group>
     fit.findings.push_back({.kind = FitFindingKind::kTakenAsUncoupled, .missing = missing});
   }
   judge_entries(measured, groups, fits, fit);
+  judge_reciprocity(measured, fit);
+  judge_poles(groups, fits, fit);
   if (fit.limited_by_model) {
     fit.findings.push_back({.kind = FitFindingKind::kModelError,
                             .error = fit.relative_error,
