@@ -84,21 +84,25 @@ std::string one_factor(const modal::FitFinding& finding) {
   return name_of(finding.missing[0]) + " is " + number(found.factor) + " (+- " +
          number_text(found.deviation, 1) + ") times " + name_of(finding.missing[1]) + " in all " +
          std::to_string(found.modes) +
-         " modes that show both: the sensitivity of a sensor or of the hammer is off in one direction, or the "
+         " modes that show both: the sensitivity of a sensor or of the hammer is off in one direction, or "
+         "the "
          "taps of one direction lie beside the sensor; depths of cut are wrong by up to as much";
 }
 
 std::string shifted(const modal::FitFinding& finding) {
   const modal::PoleShift& shift = finding.shift;
+  const std::string part = shift.of_force ? "force" : "response";
   const auto factor = [](double value) { return number_text(value, 5); };
-  const std::string times = factor(shift.least) + (shift.least == shift.most ? "" : " to " + factor(shift.most)) +
-                            " (+- " + number_text(shift.deviation, 1) + ")";
-  return std::string("the curves of the ") + (shift.of_force ? "force" : "response") + " along " +
-         finding.direction + " have natural frequencies " + times + " times those of the others: a sensor "
-         "that was moved or added, or a structure that changed between the hits" +
-         (shift.doubled > 0 ? "; " + std::to_string(shift.doubled) +
-                                  " modes are doubled to make up for it"
-                            : "");
+  return "the curves of " + part + " " + finding.directions[0] + " have natural frequencies " +
+         factor(shift.least) + (shift.least == shift.most ? "" : " to " + factor(shift.most)) + " (+- " +
+         number_text(shift.deviation, 1) + ") times those of " +
+         (finding.directions.size() == 2 ? part + " " + finding.directions[1] : "the others") +
+         ": a sensor that was moved, or a structure that changed between the taps; the speeds of a chart are "
+         "off by as much" +
+         (shift.doubled == 0 ? ""
+          : shift.doubled == 1
+              ? ", and a mode is doubled to make up for it"
+              : ", and " + std::to_string(shift.doubled) + " modes are doubled to make up for it");
 }
 
 std::string unexplained(const modal::FitFinding& finding) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <utility>
 
 #include "base/error.h"
 #include "base/number_text.h"
@@ -288,32 +289,25 @@ void judge_entries(const dynamics::FrequencyResponse& measured, const std::vecto
 }
 
 // Modes that are reciprocal but for one factor; nothing more where entries do not fit together.
-void judge_reciprocity(const dynamics::FrequencyResponse& measured, ModalFit& fit) {
-  if (std::any_of(fit.findings.begin(), fit.findings.end(), [](const FitFinding& finding) {
-        return finding.kind == FitFindingKind::kScaled || finding.kind == FitFindingKind::kDelayed;
-      }))
-    return;
-  const std::vector<std::string>& dofs = fit.model.dofs;
-  for (std::size_t i = 0; i < dofs.size(); ++i) {
-    for (std::size_t j = i + 1; j < dofs.size(); ++j) {
-      if (measured.find(dofs[i], dofs[j]) == nullptr || measured.find(dofs[j], dofs[i]) == nullptr) continue;
-      const auto factor = reciprocity_factor(fit.model, static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-      if (factor)
-        fit.findings.push_back({.kind = FitFindingKind::kOneFactor,
-                                .missing = {{dofs[i], dofs[j]}, {dofs[j], dofs[i]}},
-                                .reciprocity = *factor});
-    }
+void judge_reciprocity(ModalFit& fit) {
+  for (const FitFinding& finding : fit.findings)
+    if (finding.kind == FitFindingKind::kScaled || finding.kind == FitFindingKind::kDelayed) return;
+  for (const ReciprocityFactor& factor : reciprocity_factors(fit.model)) {
+    const std::string &i = fit.model.dofs[factor.i], &j = fit.model.dofs[factor.j];
+    fit.findings.push_back(
+        {.kind = FitFindingKind::kOneFactor, .missing = {{i, j}, {j, i}}, .reciprocity = factor});
   }
 }
 
 // Natural frequencies that differ between forces, or between responses.
 void judge_poles(const std::vector<Group>& groups, const std::vector<GroupFit>& fits, ModalFit& fit) {
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    const std::optional<PoleShift> shift = pole_shift(fits[g]);
+    const auto shift = pole_shift(fits[g]);
     if (!shift) continue;
-    fit.findings.push_back({.kind = FitFindingKind::kShifted,
-                            .shift = *shift,
-                            .direction = groups[g].directions[shift->direction]});
+    std::vector<std::string> names = groups[g].directions;  // the shifted one first
+    std::swap(names[0], names[shift->direction]);
+    fit.findings.push_back(
+        {.kind = FitFindingKind::kShifted, .shift = *shift, .directions = std::move(names)});
   }
 }
 
@@ -376,7 +370,7 @@ void judge(const dynamics::FrequencyResponse& measured, const std::vector<Group>
     fit.findings.push_back({.kind = FitFindingKind::kTakenAsUncoupled, .missing = missing});
   }
   judge_entries(measured, groups, fits, fit);
-  judge_reciprocity(measured, fit);
+  judge_reciprocity(fit);
   judge_poles(groups, fits, fit);
   if (fit.limited_by_model) {
     fit.findings.push_back({.kind = FitFindingKind::kModelError,

@@ -60,7 +60,7 @@ enum class FitFindingKind {
   kAllDelayed,          ///< the responses of all entries do, as far as can be told
   kScaled,              ///< entry missing[0], or else missing[1], is `factor` times what fits the others
   kOneFactor,           ///< entry missing[0] is `reciprocity` times missing[1] in all modes
-  kShifted,             ///< natural frequencies of the curves of missing[0], as `shift` has it
+  kShifted,             ///< natural frequencies of the curves of directions[0], as `shift` has it
   // Of these a table is no answer (is_no_answer):
   kNoMode,        ///< none in the band stands out of the noise
   kNotConverged,  ///< the last refinement of some group
@@ -81,7 +81,7 @@ struct FitFinding {
   double lo_hz = 0, hi_hz = 0;
   PoleShift shift{};
   ReciprocityFactor reciprocity{};
-  std::string direction{};  ///< that it is about
+  std::vector<std::string> directions{};  ///< the one that it is about, then the others
 };
 
 /// Whether what was fitted is no answer: nobody should cut with that table.

@@ -43,9 +43,7 @@ class ModeParameters {
 
   /// Of kNonsymmetric: places in x of Re of psi_r's component i, which must not be the pivot, and of psi_l's;
   /// the psi_r component that is held at 1; what psi_l is in units of when that is 1.
-  Eigen::Index right_in_x(Eigen::Index k, Eigen::Index i) const {
-    return vectors_at(k) + right_offset(k, i);
-  }
+  Eigen::Index right_in_x(Eigen::Index k, Eigen::Index i) const { return vectors_at(k) + right_offset(k, i); }
   Eigen::Index left_in_x(Eigen::Index k, Eigen::Index i) const {
     return vectors_at(k) + 2 * (dofs_ - 1) + 2 * i;
   }

@@ -19,12 +19,12 @@ namespace {
 using Complex = std::complex<double>;
 using Modes = std::vector<dynamics::Mode>;
 
-constexpr double kMostShift = 0.05;   // logarithm of a factor
-constexpr double kParallel = 0.8;     // modal assurance criterion of a doubled mode's vectors
-constexpr double kMostUnlike = 2;     // ratio of their damping
-constexpr double kShare = 0.8;        // of what a second mode explains, that a shift has to
-constexpr double kNumbersOfShift = 4; // that a shift has to be worth: as a mismatch
-constexpr double kLeastShift = 0.05;  // of a half width, where no mode is doubled
+constexpr double kMostShift = 0.05;    // logarithm of a factor
+constexpr double kParallel = 0.8;      // modal assurance criterion of a doubled mode's vectors
+constexpr double kMostUnlike = 2;      // ratio of their damping
+constexpr double kShare = 0.8;         // of what a second mode explains, that a shift has to
+constexpr double kNumbersOfShift = 4;  // that a shift has to be worth: as a mismatch
+constexpr double kLeastShift = 0.05;   // of a half width, where no mode is doubled
 constexpr Effort kBetween{60, 0.01};
 
 // The curves whose poles are shifted against those of the others.
@@ -46,8 +46,8 @@ struct Side {
   }
 };
 
-// Modes of which some have shifted poles in some curves: each of these stands as two, one for each part of the
-// curves, whose parameters are functions of the mode's and of its shift.
+// Modes of which some have shifted poles in some curves: each of these stands as two, one for each part of
+// the curves, whose parameters are functions of the mode's and of its shift.
 class ShiftedModes {
  public:
   // `shift_of` [modes]: which shift a mode has, -1 for none.
@@ -101,8 +101,8 @@ class ShiftedModes {
     return parts;
   }
 
-  // The parameters of mode k, or of its two parts, which start at mode `to` of the doubled ones, and their slope.
-  // Returns how many modes it stands as.
+  // The parameters of mode k, or of its two parts, which start at mode `to` of the doubled ones, and their
+  // slope. Returns how many modes it stands as.
   Eigen::Index expand(const Eigen::VectorXd& u, Eigen::Index k, Eigen::Index to, Eigen::VectorXd& x,
                       Eigen::MatrixXd* slope) const {
     const Eigen::Index each = own_.per_mode(), from = own_.pole_at(k), first = doubled_.pole_at(to);
@@ -129,7 +129,8 @@ class ShiftedModes {
     return 2;
   }
 
-  // The part of the shifted response: psi_r is 1 in its direction alone, psi_l is the mode's times its psi_r there.
+  // The part of the shifted response: psi_r is 1 in its direction alone, psi_l is the mode's times its psi_r
+  // there.
   void expand_response(const Eigen::VectorXd& u, Eigen::Index k, Eigen::Index to, Eigen::VectorXd& x,
                        Eigen::MatrixXd* slope) const {
     const Eigen::Index vectors = doubled_.vectors_at(to), count = own_.per_mode() - 2;
@@ -258,10 +259,6 @@ class Judgement {
       const Refined with = refined(trial, shift_of, Eigen::VectorXd::Constant(1, both.shift));
       const double without = fit_.refine(trial, kBetween).chi_square;
       const double by_shift = without - with.chi_square, by_mode = without - fit_.refined.chi_square;
-      if (getenv("SHIFT_DEBUG"))
-        fprintf(stderr, "pair %g %g force %d: shift %g by_shift %g by_mode %g kappa %g\n",
-                fit_.modes()[a].frequency_hz, fit_.modes()[b].frequency_hz, side_.of_force, with.shifts[0],
-                by_shift, by_mode, inflation_);
       if (by_shift < kShare * by_mode || worth(by_shift) < kNumbersOfShift * log_values_) continue;
       modes_[a] = both.mode;
       one[a] = gone[b] = true;
@@ -298,9 +295,6 @@ class Judgement {
   std::optional<PoleShift> of_single_modes() {
     const Refined all = refined(modes_, all_of_one(), Eigen::VectorXd::Zero(1));
     gain_ = worth(chi_square_ - all.chi_square);
-    if (getenv("SHIFT_DEBUG"))
-      fprintf(stderr, "single force %d: shift %g +- %g worth %g\n", side_.of_force, all.shifts[0],
-              all.deviations[0], gain_);
     std::vector<double> damping;
     for (const dynamics::Mode& mode : modes_)
       if (can_shift(mode)) damping.push_back(mode.damping_ratio);
@@ -319,9 +313,6 @@ class Judgement {
     const double mean = own.shifts.dot(own.deviations.array().square().inverse().matrix()) /
                         own.deviations.array().square().inverse().sum();
     const Refined all = refined(modes_, all_of_one(), Eigen::VectorXd::Constant(1, mean));
-    if (getenv("SHIFT_DEBUG"))
-      fprintf(stderr, "pairs force %d: common %g +- %g chi %g; own chi %g; as it was %g\n", side_.of_force,
-              all.shifts[0], all.deviations[0], all.chi_square, own.chi_square, chi_square_);
     const double saved = static_cast<double>(count) * fit_.parameters_per_mode() * log_values_;
     const double of_all = saved - worth(all.chi_square - chi_square_) - log_values_;
     const double of_each =
@@ -351,8 +342,8 @@ class Judgement {
         [&](const Eigen::VectorXd& x, bool with_matrix) { return model.evaluate(x, with_matrix); }, u, lower,
         upper, {kBetween.iterations, kBetween.tolerance / fit_.complex_values()});
     const Eigen::VectorXd variance = inverse_normal_matrix(least.at).diagonal() * inflation_ / 2;
-    return {least.at.sum_of_squares, least.x.tail(start.size()),
-            variance.tail(start.size()).cwiseSqrt(), least.x};
+    return {least.at.sum_of_squares, least.x.tail(start.size()), variance.tail(start.size()).cwiseSqrt(),
+            least.x};
   }
 
   const GroupFit& fit_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -56,7 +57,8 @@ Ratios ratios_of(const dynamics::ModalModel& table, Eigen::Index i, Eigen::Index
   return ratios;
 }
 
-// Mean of correlated values with a further scatter, its variance, and what is left in units of the deviations.
+// Mean of correlated values with a further scatter, its variance, and what is left in units of the
+// deviations.
 struct Mean {
   double value = 0, variance = 0, left = 0;
 };
@@ -74,10 +76,8 @@ Mean mean_of(const Ratios& ratios, double scatter) {
   return mean;
 }
 
-}  // namespace
-
-std::optional<ReciprocityFactor> reciprocity_factor(const dynamics::ModalModel& table, Eigen::Index i,
-                                                    Eigen::Index j) {
+std::optional<ReciprocityFactor> factor_of(const dynamics::ModalModel& table, Eigen::Index i,
+                                           Eigen::Index j) {
   const Ratios ratios = ratios_of(table, i, j);
   const auto modes = static_cast<std::size_t>(ratios.value.size());
   if (modes < kLeastModes) return std::nullopt;
@@ -94,7 +94,18 @@ std::optional<ReciprocityFactor> reciprocity_factor(const dynamics::ModalModel& 
   const double odds = (freedom + 1) / 2 * std::log1p(mean.value * mean.value / mean.variance / freedom);
   if (std::abs(mean.value) < kLeastFactor || odds < kSureFactor) return std::nullopt;
   const double factor = std::exp(mean.value);
-  return ReciprocityFactor{factor, factor * std::sqrt(mean.variance), modes};
+  return ReciprocityFactor{i, j, factor, factor * std::sqrt(mean.variance), modes};
+}
+
+}  // namespace
+
+std::vector<ReciprocityFactor> reciprocity_factors(const dynamics::ModalModel& table) {
+  std::vector<ReciprocityFactor> factors;
+  const auto dofs = static_cast<Eigen::Index>(table.dofs.size());
+  for (Eigen::Index i = 0; i < dofs; ++i)
+    for (Eigen::Index j = i + 1; j < dofs; ++j)
+      if (const auto factor = factor_of(table, i, j)) factors.push_back(*factor);
+  return factors;
 }
 
 }  // namespace stablecut::modal
