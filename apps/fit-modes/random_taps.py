@@ -20,8 +20,9 @@ import numpy as np
 
 NAMES = "xy"
 FAULTS = ["none", "drift", "hum", "delay", "late", "scale", "unit", "dead", "exchanged", "both-exchanged", "sign"]
+RARE = ["shifted", "sensitivity"]  # drawn only where they are asked for, so that a seed stays what it was
 DOUBTS = re.compile(r"comes? [-0-9.e]+ ms late|times what fits|nothing but noise|look exchanged|other sign|positive on|"
-                    r"single lines|velocity|dead")
+                    r"single lines|velocity|dead|natural frequencies|in all [0-9]+ modes")
 
 
 def apart(rng, low, high, count, gap):
@@ -31,7 +32,7 @@ def apart(rng, low, high, count, gap):
             return hz
 
 
-def structure(rng):
+def structure(rng, reciprocal=False):
     """Poles [modes], right and left vectors [modes x 2]."""
     soft, stiff = rng.integers(2, 6), rng.integers(2, 5)
     hz = np.r_[apart(rng, 8, 70, soft, 0.12), apart(rng, 180, 2500, stiff, 0.08)]
@@ -52,7 +53,7 @@ def structure(rng):
     poles, vectors = np.linalg.eig(state)
     inverse = np.linalg.inv(vectors)
     kept = np.argsort(np.where(poles.imag > 0, np.abs(poles), np.inf))[:n]
-    hit = shape * np.exp(rng.normal(0, 0.04, shape.shape)) if rng.random() < 0.5 else shape
+    hit = shape * np.exp(rng.normal(0, 0.04, shape.shape)) if rng.random() < 0.5 and not reciprocal else shape
     right, left = (shape.T @ vectors[:n, kept]).T, inverse[kept][:, n:] @ hit
     scale = np.sqrt(np.linalg.norm(left, axis=1) / np.linalg.norm(right, axis=1))[:, None]
     return poles[kept], right * scale, left / scale
@@ -95,6 +96,10 @@ def with_fault(rng, fault, hz, s, exact, measured, noise):
         h = h[::-1].copy()
     elif fault == "sign":
         h[i, j] *= -1
+    elif fault == "sensitivity":
+        mends = rng.uniform(1.05, 1.2)**rng.choice([-1, 1])
+        h[i] *= mends
+        mends **= 1 - 2 * i
     return h, entry, mends
 
 
@@ -104,8 +109,17 @@ def tap(rng, modes, fault):
     hz = np.arange(1 if rng.random() < 0.5 else int(4 / spacing), int(top / spacing) + 1) * spacing
     s = 2j * np.pi * hz
     residue = np.einsum("ki,kj->kij", right, left)
-    exact = (np.einsum("kij,kl->ijl", residue, 1 / (s - poles[:, None])) +
-             np.einsum("kij,kl->ijl", residue.conj(), 1 / (s - poles.conj()[:, None]))) * s * s
+
+    def accelerance(at):
+        return (np.einsum("kij,kl->ijl", residue, 1 / (s - at[:, None])) +
+                np.einsum("kij,kl->ijl", residue.conj(), 1 / (s - at.conj()[:, None]))) * s * s
+    exact = accelerance(poles)
+    if fault == "shifted":
+        # The sensor lies elsewhere: by one factor, or by one for each mode.
+        shift = rng.uniform(0.002, 0.01) * rng.choice([-1, 1])
+        off = accelerance(poles * (1 + shift * (1 if rng.random() < 0.5 else rng.uniform(0.5, 1, len(poles)))))
+        curves = (slice(None), rng.integers(2)) if rng.random() < 0.5 else rng.integers(2)
+        exact[curves] = off[curves]
     width = np.exp(rng.uniform(np.log(0.15e-3), np.log(0.5e-3)))
     force = np.maximum((np.abs(np.sinc(hz * width)) + 1 / (1 + (hz * width)**2)) / 2, 0.02)
 
@@ -128,9 +142,12 @@ def named(fault, entry, mends, text):
         tolerance = 0.02 if fault == "scale" else 0.05
         return any(entry in found[:2] and abs(float(found[2]) / mends - 1) < tolerance
                    for found in re.findall(r"H([xy]{2})(?: or H([xy]{2}))? is ([0-9.e+-]+) times", text))
+    if fault == "sensitivity":
+        found = re.search(r"Hxy is ([0-9.e+-]+) [^;]* in all", text)
+        return found is not None and abs(float(found[1]) / mends - 1) < 0.02
     patterns = {"drift": "rises towards 0", "hum": "single lines", "delay": f"H{entry}: its response comes",
                 "late": "the responses come", "dead": f"H{entry}: nothing but noise", "exchanged": "look exchanged",
-                "both-exchanged": "look exchanged", "sign": "with the other sign|positive on"}
+                "both-exchanged": "look exchanged", "sign": "with the other sign|positive on", "shifted": "have natural frequencies"}
     return re.search(patterns[fault], text) is not None
 
 
@@ -156,7 +173,7 @@ class Campaign:
     def judge(self, seed, fault):
         rng = np.random.default_rng(seed)
         fault = fault or FAULTS[rng.integers(len(FAULTS))]
-        modes = structure(rng)
+        modes = structure(rng, fault == "sensitivity")
         cut = ["--teeth", str(rng.integers(2, 5)), "--kt", str(rng.integers(600, 1200)), "--kr", str(rng.integers(150, 400)),
                "--milling", str(rng.choice(["up", "down"])), "--immersion", f"{rng.uniform(0.2, 1):.2f}",
                "--speed", "3000:15000:4", "--depth", "0.02:30:2"]
@@ -176,7 +193,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
     parser.add_argument("--first", type=int, default=1)
     parser.add_argument("--taps", type=int, default=100)
-    parser.add_argument("--fault", choices=FAULTS)
+    parser.add_argument("--fault", choices=FAULTS + RARE)
     parser.add_argument("--bin", default=pathlib.Path(__file__).parents[2] / "build/bin")
     choice = parser.parse_args()
     campaign = Campaign(choice.bin)
@@ -189,7 +206,7 @@ def main():
             if result["told"] == (result["fault"] == "none") or not result["right"]:
                 print(f"{result['seed']}: {result['what']}: depth off by {result['off']:.1%}", *result["text"].splitlines(), sep="\n    ")
     print(f"{'fault':16}{'taps':>6}{'named, or doubted':>19}{'depth right or warned':>23}{'depth within 5 %':>18}")
-    for fault in FAULTS:
+    for fault in FAULTS + RARE:
         if fault in counts:
             print(f"{fault:16}{counts[fault][0]:6}{counts[fault][1]:19}{counts[fault][2]:23}{counts[fault][3]:18}")
 

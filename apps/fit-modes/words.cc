@@ -79,6 +79,32 @@ std::string scaled(const modal::FitFinding& finding) {
          (finding.missing.size() > 1 ? ", if it is that one)" : ")");
 }
 
+std::string one_factor(const modal::FitFinding& finding) {
+  const modal::ReciprocityFactor& found = finding.reciprocity;
+  return name_of(finding.missing[0]) + " is " + number(found.factor) + " (+- " +
+         number_text(found.deviation, 1) + ") times " + name_of(finding.missing[1]) + " in all " +
+         std::to_string(found.modes) +
+         " modes that show both: the sensitivity of a sensor or of the hammer is off in one direction, or "
+         "the "
+         "taps of one direction lie beside the sensor; depths of cut are wrong by up to as much";
+}
+
+std::string shifted(const modal::FitFinding& finding) {
+  const modal::PoleShift& shift = finding.shift;
+  const std::string part = shift.of_force ? "force" : "response";
+  const auto factor = [](double value) { return number_text(value, 5); };
+  return "the curves of " + part + " " + finding.directions[0] + " have natural frequencies " +
+         factor(shift.least) + (shift.least == shift.most ? "" : " to " + factor(shift.most)) + " (+- " +
+         number_text(shift.deviation, 1) + ") times those of " +
+         (finding.directions.size() == 2 ? part + " " + finding.directions[1] : "the others") +
+         ": a sensor that was moved, or a structure that changed between the taps; the speeds of a chart are "
+         "off by as much" +
+         (shift.doubled == 0 ? ""
+          : shift.doubled == 1
+              ? ", and a mode is doubled to make up for it"
+              : ", and " + std::to_string(shift.doubled) + " modes are doubled to make up for it");
+}
+
 std::string unexplained(const modal::FitFinding& finding) {
   const std::string modes = finding.restricted ? "modes of this model" : "the modes found";
   const std::string left = finding.missing.empty()
@@ -203,6 +229,10 @@ std::string words_of(const modal::FitFinding& finding) {
              " ms late: no structure has such phases (--delay " + number_text(1e3 * finding.delay_s, 4) + ")";
     case modal::FitFindingKind::kScaled:
       return scaled(finding);
+    case modal::FitFindingKind::kOneFactor:
+      return one_factor(finding);
+    case modal::FitFindingKind::kShifted:
+      return shifted(finding);
     case modal::FitFindingKind::kNoMode:
       return "no mode in the band stands out of the noise";
     case modal::FitFindingKind::kNotConverged:

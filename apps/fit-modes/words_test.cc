@@ -154,6 +154,26 @@ TEST_CASE("what a fit leaves to be known, in words") {
   check({.kind = FitFindingKind::kScaled, .missing = {kXx, {"y", "y"}, kXy, kYx}, .factor = 1.25},
         "Hxx or Hyy is 1.25 times what fits the others, or Hxy or Hyx is 0.8 times what fits the others: a "
         "wrong sensitivity or unit; modes are doubled to make up for it (--scale xx=0.8, if it is that one)");
+  check(
+      {.kind = FitFindingKind::kOneFactor,
+       .missing = {kXy, kYx},
+       .reciprocity = {.factor = 1.1034, .deviation = 0.0123, .modes = 7}},
+      "Hxy is 1.1 (+- 0.01) times Hyx in all 7 modes that show both: the sensitivity of a sensor or of the "
+      "hammer is off in one direction, or the taps of one direction lie beside the sensor; depths of cut are "
+      "wrong by up to as much");
+  check({.kind = FitFindingKind::kShifted,
+         .shift = {.least = 0.99801, .most = 0.99801, .deviation = 2.34e-5, .doubled = 3},
+         .directions = {"y", "x"}},
+        "the curves of force y have natural frequencies 0.99801 (+- 2e-05) times those of force x: a sensor "
+        "that was moved, or a structure that changed between the taps; the speeds of a chart are off by as "
+        "much, and 3 modes are doubled to make up for it");
+  check(
+      {.kind = FitFindingKind::kShifted,
+       .shift = {.of_force = false, .least = 0.992, .most = 0.998, .deviation = 1e-4},
+       .directions = {"y", "x", "z"}},
+      "the curves of response y have natural frequencies 0.992 to 0.998 (+- 0.0001) times those of the "
+      "others: a sensor that was moved, or a structure that changed between the taps; the speeds of a chart "
+      "are off by as much");
   check({.kind = FitFindingKind::kNoMode}, "no mode in the band stands out of the noise");
   check({.kind = FitFindingKind::kNotConverged}, "the fit did not converge");
   check({.kind = FitFindingKind::kUnexplained, .missing = {kXy}, .error = 0.7, .lo_hz = 500, .hi_hz = 1000},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <utility>
 
 #include "base/error.h"
 #include "base/number_text.h"
@@ -287,6 +288,29 @@ void judge_entries(const dynamics::FrequencyResponse& measured, const std::vecto
   }
 }
 
+// Modes that are reciprocal but for one factor; nothing more where entries do not fit together.
+void judge_reciprocity(ModalFit& fit) {
+  for (const FitFinding& finding : fit.findings)
+    if (finding.kind == FitFindingKind::kScaled || finding.kind == FitFindingKind::kDelayed) return;
+  for (const ReciprocityFactor& factor : reciprocity_factors(fit.model)) {
+    const std::string &i = fit.model.dofs[factor.i], &j = fit.model.dofs[factor.j];
+    fit.findings.push_back(
+        {.kind = FitFindingKind::kOneFactor, .missing = {{i, j}, {j, i}}, .reciprocity = factor});
+  }
+}
+
+// Natural frequencies that differ between forces, or between responses.
+void judge_poles(const std::vector<Group>& groups, const std::vector<GroupFit>& fits, ModalFit& fit) {
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const auto shift = pole_shift(fits[g]);
+    if (!shift) continue;
+    std::vector<std::string> names = groups[g].directions;  // the shifted one first
+    std::swap(names[0], names[shift->direction]);
+    fit.findings.push_back(
+        {.kind = FitFindingKind::kShifted, .shift = *shift, .directions = std::move(names)});
+  }
+}
+
 // What the modes leave of all curves, beyond their noise: |model - h| / |h|, norms over lines and curves.
 double error_beyond_noise(const std::vector<GroupFit>& fits) {
   double left = 0, square = 0;
@@ -347,6 +371,8 @@ void judge(const dynamics::FrequencyResponse& measured, const std::vector<Group>
     fit.findings.push_back({.kind = FitFindingKind::kTakenAsUncoupled, .missing = missing});
   }
   judge_entries(measured, groups, fits, fit);
+  judge_reciprocity(fit);
+  judge_poles(groups, fits, fit);
   if (fit.limited_by_model) {
     fit.findings.push_back({.kind = FitFindingKind::kModelError,
                             .error = fit.relative_error,

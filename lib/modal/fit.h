@@ -13,6 +13,8 @@
 #include "modal/entry_name.h"
 #include "modal/fit_data.h"
 #include "modal/model_choice.h"
+#include "modal/pole_shift.h"
+#include "modal/reciprocity_factor.h"
 
 namespace stablecut::modal {
 
@@ -60,6 +62,8 @@ enum class FitFindingKind {
   kDelayed,             ///< the response of entry missing[0] comes `delay_s` late
   kAllDelayed,          ///< the responses of all entries do, as far as can be told
   kScaled,              ///< entry missing[0], or else missing[1], is `factor` times what fits the others
+  kOneFactor,           ///< entry missing[0] is `reciprocity` times missing[1] in all modes
+  kShifted,             ///< natural frequencies of the curves of directions[0], as `shift` has it
   // Of these a table is no answer (is_no_answer):
   kNoMode,        ///< none in the band stands out of the noise
   kNotConverged,  ///< the last refinement of some group
@@ -78,6 +82,9 @@ struct FitFinding {
   bool restricted = false;
   double delay_s = 0, factor = 1;
   double lo_hz = 0, hi_hz = 0;
+  PoleShift shift{};
+  ReciprocityFactor reciprocity{};
+  std::vector<std::string> directions{};  ///< the one that it is about, then the others
 };
 
 /// Whether what was fitted is no answer: nobody should cut with that table.

@@ -3,44 +3,20 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <random>
 
-#include "base/units.h"
 #include "dynamics/synthesis.h"
 #include "modal/fit.h"
 #include "modal/modal_fixtures_test.h"
-#include "numerics/random.h"
 
 using namespace stablecut;
 using namespace stablecut::modal;
-using Complex = std::complex<double>;
 
 namespace {
 
-// A structure with real modes in skew directions, driven and seen in both, noise 55 dB below each curve's
-// RMS.
+// Driven and seen in both directions, noise 55 dB below each curve's RMS.
 dynamics::FrequencyResponse tap(std::uint64_t seed) {
-  dynamics::ModalModel model;
-  model.dofs = {"x", "y"};
-  const auto add = [&](double hz, double damping, double angle, double stiffness) {
-    const double omega = kTwoPi * hz;
-    const Eigen::Vector2cd shape = std::sqrt(omega * omega / stiffness) *
-                                   Eigen::Vector2cd(std::cos(angle), std::sin(angle)) /
-                                   std::sqrt(Complex(0, 2 * omega));
-    model.modes.push_back(fixtures::mode(hz, damping, shape, shape));
-  };
-  add(31, 0.04, 0.5, 2e6);
-  add(55, 0.03, 2.1, 1e6);
-  add(240, 0.03, 0.9, 8e6);
-  add(610, 0.025, 2.6, 1e7);
-  dynamics::FrequencyResponse frf = dynamics::synthesize(model, Eigen::VectorXd::LinSpaced(1500, 1, 1000));
-  std::mt19937_64 generator(seed);
-  for (auto& entry : frf.entries) {
-    const double noise = std::pow(10, -55.0 / 20) * entry.h.norm() / std::sqrt(1500.0);
-    for (Eigen::Index i = 0; i < entry.h.size(); ++i)
-      entry.h[i] += noise * numerics::unit_complex_normal(generator);
-  }
-  return frf;
+  return fixtures::with_noise(
+      dynamics::synthesize(fixtures::skew_modes(), Eigen::VectorXd::LinSpaced(1500, 1, 1000)), 55, seed);
 }
 
 // The findings about entries that do not fit together.

@@ -1,11 +1,14 @@
 // Structures that several tests of this room share.
 #pragma once
 
+#include <cmath>
 #include <complex>
+#include <random>
 
 #include "base/units.h"
 #include "dynamics/synthesis.h"
 #include "modal/fit_data.h"
+#include "numerics/random.h"
 
 namespace stablecut::modal::fixtures {
 
@@ -30,6 +33,38 @@ inline dynamics::ModalModel close_pair() {
       mode(260, 0.12, {Complex(1, 0), Complex(0.7, 0.6)}, {Complex(3e-4, -1e-4), Complex(2e-4, 1e-4)}),
       mode(640, 0.008, {Complex(0.2, 0.9), Complex(1, -0.3)}, {Complex(1e-4, 1e-4), Complex(-2e-4, 0)})};
   return model;
+}
+
+/// A structure with real modes in skew directions.
+inline dynamics::ModalModel skew_modes() {
+  using Complex = std::complex<double>;
+  dynamics::ModalModel model;
+  model.dofs = {"x", "y"};
+  const auto add = [&](double hz, double damping, double angle, double stiffness) {
+    const double omega = kTwoPi * hz;
+    const Eigen::Vector2cd shape = std::sqrt(omega * omega / stiffness) *
+                                   Eigen::Vector2cd(std::cos(angle), std::sin(angle)) /
+                                   std::sqrt(Complex(0, 2 * omega));
+    model.modes.push_back(mode(hz, damping, shape, shape));
+  };
+  add(31, 0.04, 0.5, 2e6);
+  add(55, 0.03, 2.1, 1e6);
+  add(240, 0.03, 0.9, 8e6);
+  add(610, 0.025, 2.6, 1e7);
+  return model;
+}
+
+/// Noise that many dB below each curve's root mean square.
+inline dynamics::FrequencyResponse with_noise(dynamics::FrequencyResponse frf, double db,
+                                              std::uint64_t seed) {
+  std::mt19937_64 generator(seed);
+  for (auto& entry : frf.entries) {
+    const double noise =
+        std::pow(10, -db / 20) * entry.h.norm() / std::sqrt(static_cast<double>(entry.h.size()));
+    for (Eigen::Index i = 0; i < entry.h.size(); ++i)
+      entry.h[i] += noise * numerics::unit_complex_normal(generator);
+  }
+  return frf;
 }
 
 /// The model's exact receptances on 1 to 1000 Hz, weighted for noise of that share of each value.

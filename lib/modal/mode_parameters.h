@@ -41,6 +41,14 @@ class ModeParameters {
   Eigen::Index pole_at(Eigen::Index k) const { return k * per_mode(); }
   Eigen::Index vectors_at(Eigen::Index k) const { return pole_at(k) + 2; }
 
+  /// Of kNonsymmetric: places in x of Re of psi_r's component i, which must not be the pivot, and of psi_l's;
+  /// the psi_r component that is held at 1; what psi_l is in units of when that is 1.
+  Eigen::Index right_in_x(Eigen::Index k, Eigen::Index i) const { return vectors_at(k) + right_offset(k, i); }
+  Eigen::Index left_in_x(Eigen::Index k, Eigen::Index i) const {
+    return vectors_at(k) + 2 * (dofs_ - 1) + 2 * i;
+  }
+  double unit(Eigen::Index k) const { return unit_[k]; }
+
   /// The parameters of given modes; in a restricted model those of modes near them that are of that model.
   Eigen::VectorXd pack(const std::vector<dynamics::Mode>& modes) const;
   std::vector<dynamics::Mode> unpack(const Eigen::Ref<const Eigen::VectorXd>& x) const;
