@@ -96,7 +96,7 @@ class FitModes : public cli::Tool {
     const dynamics::FrequencyResponse measured = read_receptance();
     if (!choice_.poles_path().empty())
       choice_.take_poles(read_reference(choice_.poles_path(), cli::InputForm::kByContent));
-    const modal::TapReport tap = modal::check_tap(measured, zeros_are_dead_);
+    const modal::TapReport tap = modal::check_tap(measured, !is_document_);
     const bool band_chosen = measurement_.band_is_chosen();
     for (const modal::TapFinding& finding : tap.findings)
       warn(input_name_ + ": " + words_of(finding, band_chosen));
@@ -113,6 +113,10 @@ class FitModes : public cli::Tool {
                                  ? Remedy::kBand
                                  : Remedy::kNone);
       warn(text);
+    }
+    if (!taps_.given() && !is_document_) {
+      if (const auto ringing = modal::ringing_at_end(result.model, measured.frequency_hz))
+        warn(input_name_ + ": " + ringing_text(*ringing));
     }
     write_table(result, run.used);
     if (!fitted_path_.empty()) write_fitted(result, measured);
@@ -183,7 +187,7 @@ class FitModes : public cli::Tool {
     for (const document::Remark& remark : measured.remarks)
       warn(document::remark_text(remark) + advice(document::remedy(remark.kind)));
     input_name_ = measured.name;
-    zeros_are_dead_ = !measured.is_document;
+    is_document_ = measured.is_document;
     return std::move(measured.frf);
   }
 
@@ -229,7 +233,7 @@ class FitModes : public cli::Tool {
   FrfOutput frf_output_;
   TableOptions tables_;
   std::string fitted_path_, stabilization_path_, input_name_;
-  bool zeros_are_dead_ = true;
+  bool is_document_ = false;
   std::vector<CLI::Option*> fit_options_;
 };
 

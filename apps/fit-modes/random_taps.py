@@ -115,11 +115,10 @@ def tap(rng, modes, fault):
                 np.einsum("kij,kl->ijl", residue.conj(), 1 / (s - at.conj()[:, None]))) * s * s
     exact = accelerance(poles)
     if fault == "shifted":
-        # The sensor lies elsewhere: by one factor, or by one for each mode.
-        shift = rng.uniform(0.002, 0.01) * rng.choice([-1, 1])
-        off = accelerance(poles * (1 + shift * (1 if rng.random() < 0.5 else rng.uniform(0.5, 1, len(poles)))))
-        curves = (slice(None), rng.integers(2)) if rng.random() < 0.5 else rng.integers(2)
-        exact[curves] = off[curves]
+        # The sensor lies elsewhere for one force or response: poles off by one factor, or by one for each mode.
+        side, of_force, shift = rng.integers(2), rng.random() < 0.5, rng.uniform(0.002, 0.01) * rng.choice([-1, 1])
+        curves = (slice(None), side) if of_force else side
+        exact[curves] = accelerance(poles * (1 + shift * (1 if rng.random() < 0.5 else rng.uniform(0.5, 1, len(poles)))))[curves]
     width = np.exp(rng.uniform(np.log(0.15e-3), np.log(0.5e-3)))
     force = np.maximum((np.abs(np.sinc(hz * width)) + 1 / (1 + (hz * width)**2)) / 2, 0.02)
 
@@ -129,6 +128,8 @@ def tap(rng, modes, fault):
     noise = normal(2, 2, len(hz)) * floor / force
     hammer = 10**(-rng.uniform(35, 55) / 20) * normal(2, len(hz)) / force
     h, entry, mends = with_fault(rng, fault, hz, s, exact, exact * (1 + hammer) + noise, noise)
+    if fault == "shifted":
+        entry, mends = "force" if of_force else "response", (1 + shift)**(2 * side - 1)
     quantity = rng.choice(["receptance", "accelerance"])
     if quantity == "receptance":
         h = h / (s * s)
@@ -145,9 +146,12 @@ def named(fault, entry, mends, text):
     if fault == "sensitivity":
         found = re.search(r"Hxy is ([0-9.e+-]+) [^;]* in all", text)
         return found is not None and abs(float(found[1]) / mends - 1) < 0.02
+    if fault == "shifted":
+        found = re.search(r"curves of (force|response) y have natural frequencies ([0-9.]+)(?: to ([0-9.]+))? ", text)
+        return found is not None and found[1] == entry and all(0.4 < (float(f) - 1) / (mends - 1) < 1.1 for f in found.groups()[1:] if f)
     patterns = {"drift": "rises towards 0", "hum": "single lines", "delay": f"H{entry}: its response comes",
                 "late": "the responses come", "dead": f"H{entry}: nothing but noise", "exchanged": "look exchanged",
-                "both-exchanged": "look exchanged", "sign": "with the other sign|positive on", "shifted": "have natural frequencies"}
+                "both-exchanged": "look exchanged", "sign": "with the other sign|positive on"}
     return re.search(patterns[fault], text) is not None
 
 

@@ -57,6 +57,13 @@ std::string disturbed_lines(const modal::TapFinding& finding) {
          list + " Hz), as hum does: left out, since each would be taken for a mode";
 }
 
+std::string frequencies(const std::vector<double>& hz) {
+  std::string list;
+  for (std::size_t i = 0; i < std::min(hz.size(), kShownLines); ++i)
+    list += (i == 0 ? "" : ", ") + number_text(hz[i], 4);
+  return list + (hz.size() > kShownLines ? ", ..." : "");
+}
+
 std::string list_of(const std::vector<modal::EntryName>& entries, const std::string& between = ", ") {
   std::string list;
   for (const modal::EntryName& entry : entries)
@@ -97,6 +104,9 @@ std::string shifted(const modal::FitFinding& finding) {
          factor(shift.least) + (shift.least == shift.most ? "" : " to " + factor(shift.most)) + " (+- " +
          number_text(shift.deviation, 1) + ") times those of " +
          (finding.directions.size() == 2 ? part + " " + finding.directions[1] : "the others") +
+         (shift.in_all         ? ""
+          : shift.doubled == 1 ? " in one mode"
+                               : " in " + std::to_string(shift.doubled) + " modes") +
          ": a sensor that was moved, or a structure that changed between the taps; the speeds of a chart are "
          "off by as much" +
          (shift.doubled == 0 ? ""
@@ -189,13 +199,20 @@ std::string words_of(const modal::TapFinding& finding, bool band_chosen) {
 std::string untold_text(const dynamics::ModalModel& table) {
   const std::vector<std::size_t> untold = dynamics::untold_modes(table);
   if (untold.empty()) return "";
-  std::string list;
-  for (std::size_t i = 0; i < std::min(untold.size(), kShownLines); ++i)
-    list += (i == 0 ? "" : ", ") + number_text(table.modes[untold[i]].frequency_hz, 4);
-  if (untold.size() > kShownLines) list += ", ...";
+  std::vector<double> hz;
+  for (const std::size_t k : untold) hz.push_back(table.modes[k].frequency_hz);
   return "damping or vectors of " + std::to_string(untold.size()) + " of " +
          std::to_string(table.modes.size()) + " modes are smaller than their own standard deviations (" +
-         list + " Hz): these numbers tell nothing by themselves";
+         frequencies(hz) + " Hz): these numbers tell nothing by themselves";
+}
+
+std::string ringing_text(const modal::RingingModes& ringing) {
+  return "at the end of records of " + number(ringing.record_s) + " s, as lines " +
+         number(1 / ringing.record_s) + " Hz apart come from, modes still ring with up to " +
+         percent_text(ringing.share) + " of their first size (" + frequencies(ringing.hz) +
+         " Hz): if these were records of taps, their vectors are off by up to as much, and drift is added; "
+         "longer records help, or an "
+         "exponential window (--window-decay)";
 }
 
 std::string left_out_text(double hz) {

@@ -5,6 +5,7 @@
 
 #include "dynamics/modal_model.h"
 #include "modal/fit.h"
+#include "modal/record_end.h"
 #include "modal/tap_checks.h"
 
 namespace stablecut {
@@ -18,5 +19,7 @@ std::string words_of(const modal::FitFinding& finding);
 
 /// Which of the table's modes its own deviations leave untold; empty where none.
 std::string untold_text(const dynamics::ModalModel& table);
+
+std::string ringing_text(const modal::RingingModes& ringing);
 
 }  // namespace stablecut

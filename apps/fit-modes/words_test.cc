@@ -122,6 +122,13 @@ TEST_CASE("modes of which nothing is told, in words") {
              Catch::Contains("7 of 7 modes") && Catch::Contains("(100, 200, 300, 400, 500, ... Hz)"));
 }
 
+TEST_CASE("modes that ring at the end of a record, in words") {
+  CHECK(ringing_text({.record_s = 0.5, .hz = {14.1, 22.04}, .share = 0.2345}) ==
+        "at the end of records of 0.5 s, as lines 2 Hz apart come from, modes still ring with up to 23 % of "
+        "their first size (14.1, 22.04 Hz): if these were records of taps, their vectors are off by up to as "
+        "much, and drift is added; longer records help, or an exponential window (--window-decay)");
+}
+
 TEST_CASE("a low end that was left out is said") {
   CHECK(left_out_text(18.5) ==
         "below 18.5 Hz: left out of the fit, which has no answer with these lines; modes there are missing "
@@ -167,13 +174,17 @@ TEST_CASE("what a fit leaves to be known, in words") {
         "the curves of force y have natural frequencies 0.99801 (+- 2e-05) times those of force x: a sensor "
         "that was moved, or a structure that changed between the taps; the speeds of a chart are off by as "
         "much, and 3 modes are doubled to make up for it");
-  check(
-      {.kind = FitFindingKind::kShifted,
-       .shift = {.of_force = false, .least = 0.992, .most = 0.998, .deviation = 1e-4},
-       .directions = {"y", "x", "z"}},
-      "the curves of response y have natural frequencies 0.992 to 0.998 (+- 0.0001) times those of the "
-      "others: a sensor that was moved, or a structure that changed between the taps; the speeds of a chart "
-      "are off by as much");
+  check({.kind = FitFindingKind::kShifted,
+         .shift = {.of_force = false,
+                   .least = 0.992,
+                   .most = 0.998,
+                   .deviation = 1e-4,
+                   .doubled = 2,
+                   .in_all = false},
+         .directions = {"y", "x", "z"}},
+        "the curves of response y have natural frequencies 0.992 to 0.998 (+- 0.0001) times those of the "
+        "others in 2 modes: a sensor that was moved, or a structure that changed between the taps; the "
+        "speeds of a chart are off by as much, and 2 modes are doubled to make up for it");
   check({.kind = FitFindingKind::kNoMode}, "no mode in the band stands out of the noise");
   check({.kind = FitFindingKind::kNotConverged}, "the fit did not converge");
   check({.kind = FitFindingKind::kUnexplained, .missing = {kXy}, .error = 0.7, .lo_hz = 500, .hi_hz = 1000},

@@ -13,7 +13,6 @@
 #include "modal/mismatch_proof.h"
 #include "modal/mode_search.h"
 #include "modal/shared_poles.h"
-#include "modal/start_modes.h"
 #include "modal/table_assembly.h"
 
 namespace stablecut::modal {
@@ -25,15 +24,6 @@ constexpr Eigen::Index kLeastLines = 8;
 // m/N; what is outside is an error of units, or of a line.
 constexpr double kLeastReceptance = 1e-40, kLargestReceptance = 1e40;
 constexpr double kNoFit = 0.5;  // relative error from which on modes explain nothing
-
-// An independent group of directions, before it is fitted.
-struct Group {
-  std::vector<std::string> directions;
-  CurveVariances variance;  // given; empty when any is unknown
-  FitData data;
-  std::optional<int> wanted_modes;
-  Eigen::VectorXcd poles;  // given
-};
 
 // ---- check ----
 
@@ -53,124 +43,20 @@ void check(const dynamics::FrequencyResponse& measured) {
 
 // ---- search ----
 
-FitData group_data(const dynamics::FrequencyResponse& measured, const DirectionGroup& group,
-                   const std::vector<std::string>& dofs) {
-  FitData data;
-  data.s = Complex(0, kTwoPi) * measured.frequency_hz.cast<Complex>();
-  data.dofs = static_cast<Eigen::Index>(dofs.size());
-  data.independent_lines = measured.window_decay_per_s == 0;
-  const auto index = [&](const std::string& name) {
-    return std::find(dofs.begin(), dofs.end(), name) - dofs.begin();
-  };
-  for (const std::size_t e : group.entries) {
-    const auto& entry = measured.entries[e];
-    data.curves.push_back({index(entry.response), index(entry.reference), entry.h, {}});
-  }
-  return data;
-}
-
-std::vector<std::string> group_directions(const dynamics::FrequencyResponse& measured,
-                                          const DirectionGroup& group, const std::vector<std::string>& all) {
-  std::vector<std::string> names;
-  for (const std::string& name : all) {
-    const bool used = std::any_of(group.entries.begin(), group.entries.end(), [&](std::size_t e) {
-      return measured.entries[e].response == name || measured.entries[e].reference == name;
-    });
-    if (used) names.push_back(name);
-  }
-  return names;
-}
-
-// Known variances of the group's curves, those of few averages pooled over lines; empty when any is unknown.
-CurveVariances known_variances(const dynamics::FrequencyResponse& measured, const DirectionGroup& group) {
-  CurveVariances result;
-  for (const std::size_t e : group.entries) {
-    const auto& entry = measured.entries[e];
-    Eigen::VectorXd variance = dynamics::weighing_variance(entry, measured.frequency_hz);
-    if (variance.size() == 0) return {};
-    result.push_back(std::move(variance));
-  }
-  return result;
-}
-
-// A group's share of the number of modes that was asked for; the first groups take the rest.
-std::optional<int> share_of_modes(const FitOptions& options, std::size_t groups, std::size_t group) {
-  if (!options.modes) return std::nullopt;
-  const auto count = static_cast<int>(groups);
-  return std::max(1, *options.modes / count + (static_cast<int>(group) < *options.modes % count ? 1 : 0));
-}
-
-// The given poles that move the group's directions, seen through the window.
-Eigen::VectorXcd poles_of(const FitOptions& options, const Group& group, double window_decay_per_s) {
-  std::vector<Complex> poles;
-  for (const GivenPole& given : options.poles) {
-    const bool moves =
-        given.directions.empty() ||
-        std::any_of(given.directions.begin(), given.directions.end(), [&](const auto& name) {
-          return std::find(group.directions.begin(), group.directions.end(), name) != group.directions.end();
-        });
-    if (!moves) continue;
-    if (std::find(poles.begin(), poles.end(), given.pole - window_decay_per_s) != poles.end())
-      throw InvalidArgument("poles: " + number_text(std::abs(given.pole) / kTwoPi) +
-                            " Hz: expected each pole once in a direction");
-    poles.push_back(given.pole - window_decay_per_s);
-  }
-  if (poles.empty())
-    throw InvalidArgument("poles: expected one that moves " + group.directions[0] + " at least");
-  if (2 * static_cast<Eigen::Index>(poles.size()) > group.data.lines())
-    throw InvalidArgument("poles: " + std::to_string(poles.size()) +
-                          ": expected at most half as many as lines, " + std::to_string(group.data.lines()));
-  return Eigen::Map<Eigen::VectorXcd>(poles.data(), static_cast<Eigen::Index>(poles.size()));
-}
-
-std::vector<Group> groups_of(const dynamics::FrequencyResponse& measured, const FitOptions& options) {
-  const std::vector<DirectionGroup> parts = independent_groups(measured);
-  if (parts.empty()) throw NoAnswer("all entries are zero: there is no mode to find");
-  std::vector<Group> groups;
-  for (std::size_t g = 0; g < parts.size(); ++g) {
-    Group group;
-    group.directions = group_directions(measured, parts[g], direction_names(measured));
-    group.variance = known_variances(measured, parts[g]);
-    group.data = group_data(measured, parts[g], group.directions);
-    group.wanted_modes = share_of_modes(options, parts.size(), g);
-    group.data.residual_terms = options.residual_terms;
-    if (!options.poles.empty()) {
-      group.poles = poles_of(options, group, measured.window_decay_per_s);
-      group.data.poles_fixed = options.poles_fixed;
-      if (options.residual_terms) group.poles = with_residual_terms(group.data, group.poles);
-      group.wanted_modes =
-          static_cast<int>(std::count_if(group.poles.begin(), group.poles.end(),
-                                         [&](Complex pole) { return !group.data.is_residual(pole); }));
-    }
-    groups.push_back(std::move(group));
-  }
-  return groups;
-}
-
-// The same curves between the same directions of a group, known as well.
-bool alike(const Group& a, const Group& b) {
-  return a.wanted_modes == b.wanted_modes && a.poles.size() == b.poles.size() && a.poles == b.poles &&
-         a.variance == b.variance &&
-         std::equal(a.data.curves.begin(), a.data.curves.end(), b.data.curves.begin(), b.data.curves.end(),
-                    [](const Curve& p, const Curve& q) {
-                      return p.response == q.response && p.reference == q.reference && p.h == q.h;
-                    });
-}
-
-SelectionOptions selection_of(const Group& group, const Progress& progress) {
+SelectionOptions selection_of(const CurveGroup& group, const Progress& progress) {
   SelectionOptions options{group.wanted_modes, progress};
   options.poles = group.poles;
   return options;
 }
 
-ChosenFits search(const std::vector<Group>& groups, const FitOptions& options) {
+ChosenFits search(const std::vector<CurveGroup>& groups, const FitOptions& options) {
   std::vector<GroupFit> found;
   std::vector<SelectionOptions> selections;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     selections.push_back(selection_of(groups[g], options.progress));
     // A round tool in a round spindle: the same numbers in y as in x need no second fit.
     const auto same = std::find_if(groups.begin(), groups.begin() + static_cast<std::ptrdiff_t>(g),
-                                   [&](const Group& other) { return alike(other, groups[g]); });
+                                   [&](const CurveGroup& other) { return alike(other, groups[g]); });
     const std::size_t at = same - groups.begin();
     found.push_back(at < g ? found[at] : search_modes(groups[g].data, groups[g].variance, selections.back()));
   }
@@ -196,7 +82,7 @@ std::optional<Reciprocity> reciprocity_of(const std::vector<GroupFit>& fits) {
 }
 
 // How well each curve is met, and all together.
-void add_curve_fits(const std::vector<Group>& groups, const std::vector<GroupFit>& fits, ModalFit& fit) {
+void add_curve_fits(const std::vector<CurveGroup>& groups, const std::vector<GroupFit>& fits, ModalFit& fit) {
   double error_square = 0, square = 0;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     for (const Curve& curve : fits[g].data.curves) {
@@ -211,7 +97,7 @@ void add_curve_fits(const std::vector<Group>& groups, const std::vector<GroupFit
   fit.relative_error = std::sqrt(error_square / square);
 }
 
-ModalFit assemble(const dynamics::FrequencyResponse& measured, const std::vector<Group>& groups,
+ModalFit assemble(const dynamics::FrequencyResponse& measured, const std::vector<CurveGroup>& groups,
                   const FitOptions& options, const ChosenFits& chosen) {
   ModalFit fit;
   fit.model.dofs = direction_names(measured);
@@ -254,7 +140,7 @@ std::vector<EntryName> missing_entries(const dynamics::FrequencyResponse& measur
 }
 
 // Entries that come late, or whose scale is off.
-void judge_entries(const dynamics::FrequencyResponse& measured, const std::vector<Group>& groups,
+void judge_entries(const dynamics::FrequencyResponse& measured, const std::vector<CurveGroup>& groups,
                    const std::vector<GroupFit>& fits, ModalFit& fit) {
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const FitData& data = fits[g].data;
@@ -300,7 +186,7 @@ void judge_reciprocity(ModalFit& fit) {
 }
 
 // Natural frequencies that differ between forces, or between responses.
-void judge_poles(const std::vector<Group>& groups, const std::vector<GroupFit>& fits, ModalFit& fit) {
+void judge_poles(const std::vector<CurveGroup>& groups, const std::vector<GroupFit>& fits, ModalFit& fit) {
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const auto shift = pole_shift(fits[g]);
     if (!shift) continue;
@@ -326,7 +212,7 @@ double error_beyond_noise(const std::vector<GroupFit>& fits) {
 }
 
 // Where modes explain too little of a curve or a band, whatever limits the fit, or there is none in the band.
-void judge_explained(const std::vector<Group>& groups, const std::vector<GroupFit>& fits,
+void judge_explained(const std::vector<CurveGroup>& groups, const std::vector<GroupFit>& fits,
                      const FitOptions& options, ModalFit& fit) {
   const bool restricted = fit.mode_model != ModeModel::kNonsymmetric;
   if (std::all_of(fit.model.modes.begin(), fit.model.modes.end(),
@@ -351,7 +237,7 @@ void judge_explained(const std::vector<Group>& groups, const std::vector<GroupFi
   }
 }
 
-void judge(const dynamics::FrequencyResponse& measured, const std::vector<Group>& groups,
+void judge(const dynamics::FrequencyResponse& measured, const std::vector<CurveGroup>& groups,
            const std::vector<GroupFit>& fits, const FitOptions& options, ModalFit& fit) {
   std::size_t modes = 0;
   for (const GroupFit& part : fits) modes += part.own_modes();
@@ -391,7 +277,7 @@ bool is_no_answer(FitFindingKind kind) {
 
 ModalFit fit_modes(const dynamics::FrequencyResponse& measured, const FitOptions& options) {
   check(measured);
-  const std::vector<Group> groups = groups_of(measured, options);
+  const std::vector<CurveGroup> groups = curve_groups(measured, options);
   const ChosenFits chosen = search(groups, options);
   ModalFit fit = assemble(measured, groups, options, chosen);
   judge(measured, groups, chosen.fits, options, fit);

@@ -23,7 +23,7 @@ constexpr double kMostShift = 0.05;    // logarithm of a factor
 constexpr double kParallel = 0.8;      // modal assurance criterion of a doubled mode's vectors
 constexpr double kMostUnlike = 2;      // ratio of their damping
 constexpr double kShare = 0.8;         // of what a second mode explains, that a shift has to
-constexpr double kNumbersOfShift = 4;  // that a shift has to be worth: as a mismatch
+constexpr double kNumbersOfShift = 4;  // that a shift has to be worth
 constexpr double kLeastShift = 0.05;   // of a half width, where no mode is doubled
 constexpr Effort kBetween{60, 0.01};
 
@@ -301,7 +301,7 @@ class Judgement {
     const double least = *std::min_element(damping.begin(), damping.end());
     if (gain_ < kNumbersOfShift * log_values_ || std::abs(all.shifts[0]) < kLeastShift * least)
       return std::nullopt;
-    return told(all);
+    return told(all, true);
   }
 
   std::optional<PoleShift> of_pairs() {
@@ -318,16 +318,17 @@ class Judgement {
     const double of_each =
         saved - worth(own.chi_square - chi_square_) - static_cast<double>(count) * log_values_;
     gain_ = std::max(of_all, of_each);
-    return told(of_all >= of_each ? all : own);
+    return of_all >= of_each ? told(all, true) : told(own, false);
   }
 
-  PoleShift told(const Refined& fit) const {
+  PoleShift told(const Refined& fit, bool in_all) const {
     return {.direction = side_.direction,
             .of_force = side_.of_force,
             .least = std::exp(fit.shifts.minCoeff()),
             .most = std::exp(fit.shifts.maxCoeff()),
             .deviation = fit.deviations.maxCoeff(),
-            .doubled = shifts_.size()};
+            .doubled = shifts_.size(),
+            .in_all = in_all};
   }
 
   Refined refined(const Modes& modes, const std::vector<Eigen::Index>& shift_of,

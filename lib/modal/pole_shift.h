@@ -17,6 +17,7 @@ struct PoleShift {
   /// standard deviation (the largest).
   double least = 1, most = 1, deviation = 0;
   std::size_t doubled = 0;  ///< modes that the fit has twice to make up for it
+  bool in_all = true;       ///< all modes have it; else the doubled ones
 };
 
 /// Whether a shift explains what pairs of close modes do in a finished fit, or explains the curves better
