@@ -211,7 +211,7 @@ class RcsaCouple : public cli::Tool {
     choice.unit = unit_;
     if (unit_ && document::frf_form_of(input, choice) == document::FrfForm::kJson)
       throw cli::WrongUsage("--unit: a frf document says its units itself");
-    const dynamics::FrequencyResponse tap = document::import_frf(input, choice, remarks);
+    dynamics::FrequencyResponse tap = document::import_frf(input, choice, remarks);
     warn_of(remarks);
     document::refuse_window(tap, input.source);
     return tap;

@@ -1,6 +1,7 @@
 #include "robot/arm_lanes.h"
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include "base/units.h"
@@ -73,10 +74,10 @@ STABLECUT_INLINE HomeTarget target_in_home(const ArmConstants& k, const ArmTarge
 // Joint 1, and the wrist centre (x1, v) from it in the plane of the arm: x1 along x of frame 1, v square to
 // x1 and to axis 2.
 struct Shoulder {
-  bool reaches;
   Four c1, s1;
   Four x1;
   double v;
+  bool reaches;
 };
 
 STABLECUT_INLINE Shoulder solve_shoulder(const ArmConstants& k, const double wrist[3]) {
@@ -209,7 +210,7 @@ STABLECUT_INLINE void store_angles(const ArmConstants& k, const Shoulder& should
   arm_margin = joint(1, angle_of(elbow.s2, elbow.c2), arm_margin);
   arm_margin = joint(2, angle_of(k.elbow_sense * elbow.sp, elbow.cp), arm_margin);
   arm_margin = elbow.reaches ? arm_margin : -infinite;
-  for (int w = 0; w < 2; ++w) {
+  for (std::ptrdiff_t w = 0; w < 2; ++w) {
     Four margin = joint(3, w == 0 ? theta4 : theta4 + kPi, arm_margin);
     margin = joint(4, w == 0 ? theta5 : -theta5, margin);
     margin = joint(5, w == 0 ? theta6 : theta6 + kPi, margin);
