@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "base/units.h"
+#include "modal/curve_groups.h"
 #include "modal/explained.h"
 #include "modal/fitted_table.h"
 #include "modal/mismatch_proof.h"
