@@ -21,9 +21,9 @@ constexpr double kPriorPlace = 1.5, kPriorPlaceDeviation = 1;
 // there: standard deviation. Two modes that nearly cancel would leave nothing of J^T J's digits.
 constexpr double kPriorSize = 3;
 constexpr double kLeastPriorPlace = 1e-3;  // of the highest line, where the lowest is near 0
-// What the factorization adds to the diagonal, as shares of the entry and of the largest one; it grows by
-// kRidgeGrowth until the matrix is positive definite, or the share is 1.
-constexpr double kNormalRidge = 1e-13, kRidgeOfLargest = 1e-6, kRidgeGrowth = 100;
+// What the factorization adds to a diagonal of 1; it grows by kRidgeGrowth until the matrix is positive
+// definite, or it is 1.
+constexpr double kNormalRidge = 1e-13, kRidgeGrowth = 100;
 
 // How one complex coordinate of a mode moves one curve: by z it changes by z t g + conj(z t) g', where g is
 // function f of the poles (phi of pole k has f = 2 k, its square f = 2 k + 1) and g' the same function of the
@@ -146,17 +146,6 @@ NormalEquations to_parameters(const ModeParameters& parameters, const Eigen::Ref
     }
   }
   return result;
-}
-
-Eigen::LLT<Eigen::MatrixXd> factorized(const Eigen::MatrixXd& matrix) {
-  const double largest = matrix.diagonal().maxCoeff();
-  for (double ridge = kNormalRidge;; ridge *= kRidgeGrowth) {
-    Eigen::MatrixXd damped = matrix;
-    damped.diagonal() +=
-        ridge * (matrix.diagonal() + Eigen::VectorXd::Constant(matrix.rows(), kRidgeOfLargest * largest));
-    Eigen::LLT<Eigen::MatrixXd> factor(damped);
-    if (factor.info() == Eigen::Success || ridge > 1) return factor;
-  }
 }
 
 }  // namespace
@@ -285,9 +274,17 @@ std::vector<bool> out_of_band(const FitData& data, const std::vector<dynamics::M
   return result;
 }
 
+// In units in which the diagonal is 1: what nearly nothing tells of one mode leaves the others as they are.
 Eigen::MatrixXd inverse_normal_matrix(const NormalEquations& normal) {
-  return factorized(normal.matrix)
-      .solve(Eigen::MatrixXd::Identity(normal.matrix.rows(), normal.matrix.rows()));
+  const Eigen::ArrayXd diagonal = normal.matrix.diagonal().array();
+  const Eigen::VectorXd unit = (diagonal > 0).select(diagonal.sqrt().inverse(), 1.0);
+  const Eigen::MatrixXd scaled = unit.asDiagonal() * normal.matrix * unit.asDiagonal(),
+                        identity = Eigen::MatrixXd::Identity(scaled.rows(), scaled.rows());
+  for (double ridge = kNormalRidge;; ridge *= kRidgeGrowth) {
+    const Eigen::LLT<Eigen::MatrixXd> factor(scaled + ridge * identity);
+    if (factor.info() == Eigen::Success || ridge > 1)
+      return unit.asDiagonal() * factor.solve(identity) * unit.asDiagonal();
+  }
 }
 
 }  // namespace stablecut::modal

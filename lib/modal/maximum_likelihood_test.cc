@@ -169,3 +169,14 @@ TEST_CASE("modes outside the band are held by priors whose gradient is that of c
           Approx(gradient[p]).epsilon(1e-3).margin(1e-3 * gradient.norm()));
   }
 }
+
+TEST_CASE("where a part of J^T J is singular, or worse, what the rest knows stays") {
+  NormalEquations normal;
+  normal.matrix = Eigen::MatrixXd::Zero(5, 5);
+  normal.matrix.topLeftCorner<2, 2>() << 4, 1, 1, 9;
+  // Two numbers of a mode that cannot be told apart, as rounding leaves them, and one that nothing shows.
+  normal.matrix.block<2, 2>(2, 2) << 1e24, 1e24, 1e24, 1e24 * (1 - 1e-9);
+  const Eigen::MatrixXd inverse = inverse_normal_matrix(normal);
+  CHECK((inverse.topLeftCorner<2, 2>() * 35 - (Eigen::Matrix2d() << 9, -1, -1, 4).finished()).norm() < 1e-3);
+  CHECK(inverse(4, 4) > 1e6);
+}
