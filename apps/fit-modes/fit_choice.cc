@@ -89,11 +89,7 @@ FittedLines FitChoice::fit(const dynamics::FrequencyResponse& measured, modal::T
     result.fit = modal::fit_modes(result.used, options(progress));
   };
   run();
-  const auto& findings = result.fit.findings;
-  const bool answers = std::none_of(findings.begin(), findings.end(), [](const modal::FitFinding& finding) {
-    return modal::is_no_answer(finding.kind);
-  });
-  if (answers || band_chosen || tap.doubtful_to_hz <= tap.usable_from_hz) return result;
+  if (modal::has_answer(result.fit) || band_chosen || tap.doubtful_to_hz <= tap.usable_from_hz) return result;
   result.left_out_hz = tap.usable_from_hz = tap.doubtful_to_hz;
   run();
   return result;

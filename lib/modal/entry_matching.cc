@@ -47,20 +47,8 @@ double delay_step(double highest) {
 
 // A curve over its root mean square within half an octave, so that the resonances of each octave count alike.
 Eigen::ArrayXcd levelled(const FitData& data, const Curve& curve) {
-  const Eigen::VectorXcd& h = curve.h;
-  Eigen::ArrayXd sums(h.size() + 1);
-  sums[0] = 0;
-  for (Eigen::Index i = 0; i < h.size(); ++i) sums[i + 1] = sums[i] + std::norm(h[i]);
-  Eigen::ArrayXcd result(h.size());
-  Eigen::Index first = 0, end = 0;
-  for (Eigen::Index i = 0; i < h.size(); ++i) {
-    const double omega = data.s[i].imag();
-    while (data.s[first].imag() * kHalfOctave < omega) ++first;
-    while (end < h.size() && data.s[end].imag() <= omega * kHalfOctave) ++end;
-    const double mean = (sums[end] - sums[first]) / static_cast<double>(end - first);
-    result[i] = mean > 0 ? Complex(h[i] / std::sqrt(mean)) : Complex(0);
-  }
-  return result;
+  const Eigen::ArrayXd size = local_rms(data, curve, kHalfOctave);
+  return (size > 0).select(curve.h.array() / size.cast<Complex>(), Complex(0));
 }
 
 // Phases on lines that are clear of noise, weighted so that each octave counts alike.

@@ -269,6 +269,14 @@ void judge(const dynamics::FrequencyResponse& measured, const std::vector<CurveG
   judge_explained(groups, fits, options, fit);
 }
 
+ModalFit fit_of(const dynamics::FrequencyResponse& measured, const std::vector<CurveGroup>& groups,
+                const FitOptions& options) {
+  const ChosenFits chosen = search(groups, options);
+  ModalFit fit = assemble(measured, groups, options, chosen);
+  judge(measured, groups, chosen.fits, options, fit);
+  return fit;
+}
+
 }  // namespace
 
 bool is_no_answer(FitFindingKind kind) {
@@ -276,13 +284,21 @@ bool is_no_answer(FitFindingKind kind) {
          kind == FitFindingKind::kUnexplained;
 }
 
+bool has_answer(const ModalFit& fit) {
+  return std::none_of(fit.findings.begin(), fit.findings.end(),
+                      [](const FitFinding& finding) { return is_no_answer(finding.kind); });
+}
+
 ModalFit fit_modes(const dynamics::FrequencyResponse& measured, const FitOptions& options) {
   check(measured);
-  const std::vector<CurveGroup> groups = curve_groups(measured, options);
-  const ChosenFits chosen = search(groups, options);
-  ModalFit fit = assemble(measured, groups, options, chosen);
-  judge(measured, groups, chosen.fits, options, fit);
-  return fit;
+  std::vector<CurveGroup> groups = curve_groups(measured, options);
+  ModalFit fit = fit_of(measured, groups, options);
+  if (!fit.limited_by_model || has_answer(fit)) return fit;
+  // The strongest modes may be those of a soft robot, a hundred times larger than the tool's: octave by
+  // octave.
+  for (CurveGroup& group : groups) group.data.levelled = true;
+  ModalFit levelled = fit_of(measured, groups, options);
+  return has_answer(levelled) ? levelled : fit;
 }
 
 }  // namespace stablecut::modal

@@ -112,6 +112,9 @@ struct ModalFit {
   std::vector<FitFinding> findings;
 };
 
+/// Whether none of the findings says that it is no answer.
+bool has_answer(const ModalFit& fit);
+
 /// Fits modes to a receptance (m/N) with at least 8 lines above 0 Hz. A vector component that no entry shows
 /// (no force in that direction, or no response) is set by reciprocity; directions that only missing entries
 /// could connect are taken as uncoupled; both are findings.

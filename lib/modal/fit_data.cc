@@ -1,6 +1,7 @@
 #include "modal/fit_data.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace stablecut::modal {
@@ -38,6 +39,21 @@ std::vector<std::size_t> FitData::vector_parts() const {
 
 bool FitData::in_band(std::complex<double> pole) const {
   return pole.imag() >= lowest() && pole.imag() <= highest();
+}
+
+Eigen::ArrayXd local_rms(const FitData& data, const Curve& curve, double reach) {
+  const Eigen::VectorXcd& h = curve.h;
+  Eigen::ArrayXd sums(h.size() + 1), result(h.size());
+  sums[0] = 0;
+  for (Eigen::Index i = 0; i < h.size(); ++i) sums[i + 1] = sums[i] + std::norm(h[i]);
+  Eigen::Index first = 0, end = 0;
+  for (Eigen::Index i = 0; i < h.size(); ++i) {
+    const double omega = data.s[i].imag();
+    while (data.s[first].imag() * reach < omega) ++first;
+    while (end < h.size() && data.s[end].imag() <= omega * reach) ++end;
+    result[i] = std::sqrt((sums[end] - sums[first]) / static_cast<double>(end - first));
+  }
+  return result;
 }
 
 Eigen::VectorXcd residual_poles(const FitData& data) {

@@ -28,6 +28,9 @@ struct FitData {
   std::vector<Curve> curves;
   bool independent_lines = true;  ///< noise is; through an exponential window it is not
   bool poles_fixed = false;       ///< known: only vectors are refined, and deviations are given the poles
+  /// Where the model is the limit lines weigh by the size of their curve near them, so that each octave
+  /// counts alike, and not by that of the whole curve.
+  bool levelled = false;
   /// What lies outside the band is terms at residual_poles, which stay there, and no mode leaves the band.
   bool residual_terms = false;
 
@@ -48,6 +51,9 @@ struct FitData {
   /// Number of real values measured.
   double values() const { return 2.0 * static_cast<double>(lines()) * static_cast<double>(curves.size()); }
 };
+
+/// Root mean square of a curve on the lines within a factor `reach` of each line's frequency [lines].
+Eigen::ArrayXd local_rms(const FitData& data, const Curve& curve, double reach);
 
 /// Poles of the terms that stand for what lies below and above the band, one of each for a direction, as the
 /// residual matrix of so many directions has that rank: README.md, "Residual terms".

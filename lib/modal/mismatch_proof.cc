@@ -17,6 +17,7 @@ namespace {
 constexpr std::size_t kMostMismatches = 4;  // of one group
 constexpr int kEstimates = 3;               // of a delay or factor, between refinements
 constexpr double kLeastOwn = 1e-6;          // share of its slope that modes cannot imitate
+constexpr double kLeftOfAsMany = 0.95;      // of a model error, when as many modes meet the mended curves
 constexpr double kNoWorse = 2;  // chi-square of linear least squares that may be left of mended curves
 constexpr Effort kBetween{60, 0.01};
 
@@ -105,15 +106,17 @@ class Proof {
     if (!matters(now.data, mismatch)) return std::nullopt;
     // A fit must not excuse its own misfit by a larger inflation.
     const double inflation = std::min(after.inflation_of(after.refined), now.inflation_of(now.refined));
-    GroupFit before = now, again = now;
-    before.data = again.data = mended(after.data, inverse_of(mismatch));
+    GroupFit before = now, alike = now;
+    before.data = alike.data = mended(after.data, inverse_of(mismatch));
     before.refined = before.refine(now.modes(), kBetween);
-    again.refined = again.refine(after.modes(), kBetween);
-    if (criterion(again, inflation) < criterion(before, inflation)) before = std::move(again);
+    alike.refined = alike.refine(after.modes(), kBetween);
+    const double with_as_many = alike.refined.chi_square;
+    if (criterion(alike, inflation) < criterion(before, inflation)) before = std::move(alike);
     const double gain = criterion(before, inflation) - criterion(after, inflation);
     if (!(gain > price_of(mismatch))) return std::nullopt;
-    // Against a model error a chi-square tells little: fewer modes alone prove nothing.
-    if (after.regime == Regime::kModelError && after.refined.chi_square > before.refined.chi_square)
+    // Against a model error a chi-square tells little: fewer modes prove nothing unless as many leave more.
+    if (after.regime == Regime::kModelError && after.refined.chi_square > before.refined.chi_square &&
+        after.refined.chi_square > kLeftOfAsMany * with_as_many)
       return std::nullopt;
     return Proven{mismatch, gain};
   }

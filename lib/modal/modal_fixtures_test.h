@@ -4,6 +4,8 @@
 #include <cmath>
 #include <complex>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "base/units.h"
 #include "dynamics/synthesis.h"
@@ -52,6 +54,36 @@ inline dynamics::ModalModel skew_modes() {
   add(240, 0.03, 0.9, 8e6);
   add(610, 0.025, 2.6, 1e7);
   return model;
+}
+
+/// A mode of hysteretic damping: N/m, and the angle of its direction from x, rad.
+struct Hysteretic {
+  double hz, damping, stiffness, angle;
+};
+
+/// Receptances in x and y of such modes, 1 / (k (1 + 2 i zeta) - m omega^2) each.
+inline dynamics::FrequencyResponse hysteretic(const std::vector<Hysteretic>& modes,
+                                              const Eigen::VectorXd& lines) {
+  dynamics::FrequencyResponse frf;
+  frf.frequency_hz = lines;
+  const Eigen::ArrayXd omega = kTwoPi * lines.array();
+  for (const bool in_x : {true, false}) {
+    for (const bool along_x : {true, false}) {
+      dynamics::FrequencyResponseEntry entry;
+      entry.response = in_x ? "x" : "y";
+      entry.reference = along_x ? "x" : "y";
+      entry.h = Eigen::VectorXcd::Zero(lines.size());
+      for (const Hysteretic& m : modes) {
+        const auto along = [&](bool x) { return x ? std::cos(m.angle) : std::sin(m.angle); };
+        const double square = std::pow(kTwoPi * m.hz, 2);
+        const std::complex<double> loss(0, 2 * m.damping * square);
+        entry.h.array() += along(in_x) * along(along_x) * square / m.stiffness /
+                           ((square - omega.square()).cast<std::complex<double>>() + loss);
+      }
+      frf.entries.push_back(std::move(entry));
+    }
+  }
+  return frf;
 }
 
 /// Noise that many dB below each curve's root mean square.

@@ -13,6 +13,7 @@ namespace {
 constexpr double kCoarseFloor = 1e-4;
 constexpr double kFineFloor = 1e-7;
 constexpr double kRmsShare = 0.01;
+constexpr double kNearby = 2;            // factor of frequency within which a levelled curve has its size
 constexpr double kDecidingShare = 0.01;  // of all weights, above which the floors are said to decide
 constexpr double kClearOfNoise = 10;     // |H|^2 over the noise's variance
 constexpr double kLeast = 1e-300;        // of |h|^2, in a quotient
@@ -41,9 +42,11 @@ void weigh_curves(FitData& data, const CurveVariances& variance, const CurveVari
   for (std::size_t e = 0; e < data.curves.size(); ++e) {
     Curve& curve = data.curves[e];
     // A curve of exact zeros is as sure as the largest one.
-    const double own_rms = rms(curve, variance[e]), size = own_rms > 0 ? own_rms : largest_rms;
+    const double own_rms = rms(curve, variance[e]);
+    Eigen::ArrayXd size = Eigen::ArrayXd::Constant(curve.h.size(), own_rms > 0 ? own_rms : largest_rms);
+    if (data.levelled && regime == Regime::kModelError && own_rms > 0) size = local_rms(data, curve, kNearby);
     curve.weight =
-        (variance[e].array() + of_value * of_value * curve.h.array().abs2() + std::pow(of_rms * size, 2))
+        (variance[e].array() + of_value * of_value * curve.h.array().abs2() + (of_rms * size).square())
             .inverse();
     curve.shared.resize(0);
     if (regime == Regime::kModelError || shared.empty() || shared[e].size() == 0) continue;
