@@ -40,8 +40,8 @@ void FitChoice::declare(CLI::App& app) {
       "--residuals", residual_terms_,
       "What lies outside the band is one fixed term below and one above it for each direction: --modes "
       "and --poles are those in the band");
-  for (const char* name : {"--residuals", "--window-decay", "--modes", "--model", "--exclude", "--poles",
-                           "--poles-are", "--shared-poles"})
+  for (const char* name : {"--window-decay", "--modes", "--model", "--exclude", "--poles", "--poles-are",
+                           "--shared-poles", "--residuals"})
     declared_.push_back(app.get_option(name));
 }
 

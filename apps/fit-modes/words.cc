@@ -92,8 +92,7 @@ std::string one_factor(const modal::FitFinding& finding) {
          number_text(found.deviation, 1) + ") times " + name_of(finding.missing[1]) + " in all " +
          std::to_string(found.modes) +
          " modes that show both: the sensitivity of a sensor or of the hammer is off in one direction, or "
-         "the "
-         "taps of one direction lie beside the sensor; depths of cut are wrong by up to as much";
+         "the taps of one direction lie beside the sensor; depths of cut are wrong by up to as much";
 }
 
 std::string shifted(const modal::FitFinding& finding) {
@@ -211,8 +210,7 @@ std::string ringing_text(const modal::RingingModes& ringing) {
          number(1 / ringing.record_s) + " Hz apart come from, modes still ring with up to " +
          percent_text(ringing.share) + " of their first size (" + frequencies(ringing.hz) +
          " Hz): if these were records of taps, their vectors are off by up to as much, and drift is added; "
-         "longer records help, or an "
-         "exponential window (--window-decay)";
+         "longer records help, or an exponential window (--window-decay)";
 }
 
 std::string left_out_text(double hz) {

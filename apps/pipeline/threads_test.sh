@@ -4,9 +4,12 @@
 . "$SOURCE/apps/testing.sh"
 
 # Nor does it matter how wide a processor's registers are: compilers fuse products and sums where only the widest have that, against their orders too.
-fused=$(for library in "$(dirname "$(command -v fit-modes)")"/../lib/*/lib*.a; do
-  objdump -d --no-show-raw-insn "$library" | sed -nE "s|.*\b(vfn?m(add\|sub)[a-z0-9]*).*|$(basename "$library"): \1|p"
-done)
+for library in "$(dirname "$(command -v fit-modes)")"/../lib/*/lib*.a; do
+  objdump -d --no-show-raw-insn "$library" | sed -nE "s|^[^ ]+: +file format.*|read|p; s/.*\b(vfn?m(add|sub)[a-z0-9]*).*/\1/p" |
+    sort -u | sed "s|^|$(basename "$library"): |"
+done >instructions
+check "all rooms' libraries are read" test "$(grep -c ': read$' instructions)" -ge 10
+fused=$(sed '/: read$/d' instructions)
 check "no fused multiply-add in ${fused:-any library}" test -z "$fused"
 
 table=$data/thesis-table-6-2.json cut=$data/thesis-cut.json robot=(--robot "$data/kr360.json")

@@ -238,8 +238,17 @@ void judge_explained(const std::vector<CurveGroup>& groups, const std::vector<Gr
   }
 }
 
+// What says that a fit is no answer.
+void judge_answer(const std::vector<CurveGroup>& groups, const std::vector<GroupFit>& fits,
+                  const FitOptions& options, ModalFit& fit) {
+  if (!fit.converged) fit.findings.push_back({.kind = FitFindingKind::kNotConverged});
+  judge_explained(groups, fits, options, fit);
+}
+
+// All else that a user should know, before what judge_answer found.
 void judge(const dynamics::FrequencyResponse& measured, const std::vector<CurveGroup>& groups,
            const std::vector<GroupFit>& fits, const FitOptions& options, ModalFit& fit) {
+  const std::vector<FitFinding> of_answer = std::exchange(fit.findings, {});
   std::size_t modes = 0;
   for (const GroupFit& part : fits) modes += part.own_modes();
   for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -265,16 +274,20 @@ void judge(const dynamics::FrequencyResponse& measured, const std::vector<CurveG
                             .error = fit.relative_error,
                             .restricted = fit.mode_model != ModeModel::kNonsymmetric});
   }
-  if (!fit.converged) fit.findings.push_back({.kind = FitFindingKind::kNotConverged});
-  judge_explained(groups, fits, options, fit);
+  fit.findings.insert(fit.findings.end(), of_answer.begin(), of_answer.end());
 }
 
-ModalFit fit_of(const dynamics::FrequencyResponse& measured, const std::vector<CurveGroup>& groups,
+struct Attempt {
+  std::vector<GroupFit> fits;
+  ModalFit fit;  // its findings are those of judge_answer
+};
+
+Attempt attempt(const dynamics::FrequencyResponse& measured, const std::vector<CurveGroup>& groups,
                 const FitOptions& options) {
-  const ChosenFits chosen = search(groups, options);
+  ChosenFits chosen = search(groups, options);
   ModalFit fit = assemble(measured, groups, options, chosen);
-  judge(measured, groups, chosen.fits, options, fit);
-  return fit;
+  judge_answer(groups, chosen.fits, options, fit);
+  return {std::move(chosen.fits), std::move(fit)};
 }
 
 }  // namespace
@@ -292,13 +305,16 @@ bool has_answer(const ModalFit& fit) {
 ModalFit fit_modes(const dynamics::FrequencyResponse& measured, const FitOptions& options) {
   check(measured);
   std::vector<CurveGroup> groups = curve_groups(measured, options);
-  ModalFit fit = fit_of(measured, groups, options);
-  if (!fit.limited_by_model || has_answer(fit)) return fit;
-  // The strongest modes may be those of a soft robot, a hundred times larger than the tool's: octave by
-  // octave.
-  for (CurveGroup& group : groups) group.data.levelled = true;
-  ModalFit levelled = fit_of(measured, groups, options);
-  return has_answer(levelled) ? levelled : fit;
+  Attempt best = attempt(measured, groups, options);
+  if (best.fit.limited_by_model && !has_answer(best.fit)) {
+    // The strongest modes may be those of a soft robot, a hundred times larger than the tool's: octave by
+    // octave.
+    for (CurveGroup& group : groups) group.data.levelled = true;
+    if (Attempt levelled = attempt(measured, groups, options); has_answer(levelled.fit))
+      best = std::move(levelled);
+  }
+  judge(measured, groups, best.fits, options, best.fit);
+  return std::move(best.fit);
 }
 
 }  // namespace stablecut::modal

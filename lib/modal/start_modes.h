@@ -5,7 +5,8 @@
 
 namespace stablecut::modal {
 
-/// Poles of the weighted curves by vector fitting, those that matter (rad/s).
+/// Poles of the weighted curves by vector fitting, those that matter (rad/s); where there are residual terms,
+/// those in the band and theirs.
 Eigen::VectorXcd find_poles(const GroupFit& fit);
 
 /// The poles in the band, and those of the residual terms.

@@ -10,6 +10,7 @@ namespace {
 constexpr double kDeadShare = 0.6;           // noise over |H| from which on a window holds nothing else
 constexpr double kDeadWindows = 0.8;         // share of such windows from which on a channel is dead
 constexpr std::ptrdiff_t kSwappedRatio = 4;  // windows with the wrong sign for one with the right one
+constexpr double kSignificant = 2;           // deviations of the noise from which on a part of H counts
 
 // A driving point takes energy: Im H_ii <= 0.
 bool has_swapped_sign(const std::vector<WindowSummary>& windows) {
@@ -26,9 +27,6 @@ bool is_dead(const std::vector<WindowSummary>& windows) {
                                    [](const WindowSummary& window) { return window.noise > kDeadShare; });
   return static_cast<double>(noisy) > kDeadWindows * static_cast<double>(windows.size());
 }
-
-// A part of H counts where it is so many deviations of the noise.
-constexpr double kSignificant = 2;
 
 }  // namespace
 
