@@ -86,13 +86,24 @@ FittedLines FitChoice::fit(const dynamics::FrequencyResponse& measured, modal::T
   FittedLines result;
   const auto run = [&] {
     result.used = lines_to_fit(measured, tap, band_chosen);
-    result.fit = modal::fit_modes(result.used, options(progress));
+    modal::FitOptions chosen = options(progress);
+    chosen.falls_to_hz = tap.falls_to_hz;
+    result.fit = modal::fit_modes(result.used, chosen);
   };
   run();
-  if (modal::has_answer(result.fit) || band_chosen || tap.doubtful_to_hz <= tap.usable_from_hz) return result;
-  result.left_out_hz = tap.usable_from_hz = tap.doubtful_to_hz;
+  const bool answered = modal::has_answer(result.fit);
+  const auto& findings = result.fit.findings;
+  const bool falls = std::any_of(findings.begin(), findings.end(), [](const modal::FitFinding& finding) {
+    return finding.kind == modal::FitFindingKind::kLowEndLeft;
+  });
+  const double from_hz =
+      std::max(falls ? tap.falls_to_hz : 0.0, answered ? 0.0 : tap.doubtful_to_hz);
+  if (band_chosen || from_hz <= tap.usable_from_hz) return result;
+  const FittedLines with_low_end = result;
+  result.left_out_hz = tap.usable_from_hz = from_hz;
+  result.low_end_falls = falls;
   run();
-  return result;
+  return answered && !modal::has_answer(result.fit) ? with_low_end : result;
 }
 
 void FitChoice::add_to_report(document::Json& fit) const {

@@ -104,7 +104,7 @@ class FitModes : public cli::Tool {
       cli::ProgressBar bar("fit-modes", !quiet());
       return choice_.fit(measured, tap, band_chosen, [&](double share) { bar.show(share); });
     });
-    if (run.left_out_hz > 0) warn(input_name_ + ": " + left_out_text(run.left_out_hz));
+    if (run.left_out_hz > 0) warn(input_name_ + ": " + left_out_text(run.left_out_hz, run.low_end_falls));
     const modal::ModalFit& result = run.fit;
     for (const modal::FitFinding& finding : result.findings) {
       const std::string text = input_name_ + ": " + words_of(finding);

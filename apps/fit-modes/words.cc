@@ -213,10 +213,12 @@ std::string ringing_text(const modal::RingingModes& ringing) {
          "longer records help, or an exponential window (--window-decay)";
 }
 
-std::string left_out_text(double hz) {
-  return "below " + number(hz) +
-         " Hz: left out of the fit, which has no answer with these lines; modes there are missing in the "
-         "table, and limit no chart";
+std::string left_out_text(double hz, bool falls) {
+  return "below " + number(hz) + " Hz: left out of the fit, " +
+         (falls ? "as what rises there towards 0 Hz is explained by no modes: integrated drift of the "
+                           "sensor (--band says otherwise)"
+                         : "which has no answer with these lines") +
+         "; modes there are missing in the table, and limit no chart";
 }
 
 std::string words_of(const modal::FitFinding& finding) {
@@ -248,6 +250,10 @@ std::string words_of(const modal::FitFinding& finding) {
       return one_factor(finding);
     case modal::FitFindingKind::kShifted:
       return shifted(finding);
+    case modal::FitFindingKind::kLowEndLeft:
+      return "below " + number(finding.hi_hz) +
+             " Hz curves fall as no modes explain: integrated drift of the sensor, or lines that nothing was "
+             "measured on (--band); modes there may be none of the structure";
     case modal::FitFindingKind::kNoMode:
       return "no mode in the band stands out of the noise";
     case modal::FitFindingKind::kNotConverged:

@@ -11,7 +11,7 @@
 namespace stablecut {
 
 /// That the low end up to `hz`, which was in doubt, was left out of the fit.
-std::string left_out_text(double hz);
+std::string left_out_text(double hz, bool falls);
 
 /// `band_chosen`: the user says which lines count, so that none are left out at the low end.
 std::string words_of(const modal::TapFinding& finding, bool band_chosen);

@@ -16,6 +16,8 @@ namespace {
 
 constexpr double kLeastClear = 0.5;      // share of a band's lines that must stand clear of noise
 constexpr Eigen::Index kLeastBand = 20;  // lines
+constexpr double kFalls = 2;             // by that factor over the low end
+constexpr Eigen::Index kLeastLowEnd = 5; // lines
 constexpr double kShortOctave = 1.4142135623730951;
 constexpr double kLeastSize = 1e-300;  // of a value, in a quotient
 
@@ -37,33 +39,46 @@ std::vector<Band> bands_of(const FitData& data) {
   return bands;
 }
 
+Eigen::ArrayXd relative_errors(const FitData& data, const std::vector<dynamics::Mode>& modes,
+                               const Curve& curve) {
+  return (curve_of(modes, curve, data.s) - curve.h).cwiseAbs().array() /
+         curve.h.cwiseAbs().array().max(kLeastSize);
+}
+
+Eigen::VectorXd noise_of(const FitData& data, const Curve& curve) {
+  return dynamics::estimated_variance(data.s.imag(), curve.h, curve.h.cwiseAbs(),
+                                      dynamics::floor_shapes(data.s.imag()), true);
+}
+
+// Errors on the lines of a band that stand clear of the noise; none where these are few.
+std::vector<double> clear_errors(const Curve& curve, const Eigen::ArrayXd& error,
+                                 const Eigen::VectorXd& noise, const Band& band) {
+  std::vector<double> left;
+  for (Eigen::Index i = band.first; i < band.first + band.count; ++i)
+    if (noise[i] < std::norm(kNoiseShare * curve.h[i])) left.push_back(error[i]);
+  if (static_cast<double>(left.size()) < kLeastClear * static_cast<double>(band.count)) left.clear();
+  return left;
+}
+
 }  // namespace
 
 std::optional<Unexplained> most_unexplained(const FitData& data, const std::vector<dynamics::Mode>& modes,
                                             double least) {
-  const dynamics::NoiseShapes floors = dynamics::floor_shapes(data.s.imag());
   const std::vector<Band> bands = bands_of(data);
   std::optional<Unexplained> most;
   for (std::size_t c = 0; c < data.curves.size(); ++c) {
     const Curve& curve = data.curves[c];
-    const Eigen::VectorXcd model = curve_of(modes, curve, data.s);
-    const Eigen::ArrayXd error =
-        (model - curve.h).cwiseAbs().array() / curve.h.cwiseAbs().array().max(kLeastSize);
+    const Eigen::ArrayXd error = relative_errors(data, modes, curve);
     Eigen::VectorXd noise;
     for (const Band& band : bands) {
       // A median above `least` over half of the lines has a quarter of them above it.
       const auto high = (error.segment(band.first, band.count) > least).count();
       if (static_cast<double>(high) < kLeastClear / 2 * static_cast<double>(band.count)) continue;
-      if (noise.size() == 0)
-        noise = dynamics::estimated_variance(data.s.imag(), curve.h, curve.h.cwiseAbs(), floors, true);
-      std::vector<double> left, steps;
-      for (Eigen::Index i = band.first; i < band.first + band.count; ++i)
-        if (noise[i] < std::norm(kNoiseShare * curve.h[i])) left.push_back(error[i]);
+      if (noise.size() == 0) noise = noise_of(data, curve);
+      std::vector<double> left = clear_errors(curve, error, noise, band), steps;
       for (Eigen::Index i = band.first; i + 1 < band.first + band.count; ++i)
         steps.push_back(std::abs(curve.h[i + 1] - curve.h[i]) / std::max(std::abs(curve.h[i]), kLeastSize));
-      if (static_cast<double>(left.size()) < kLeastClear * static_cast<double>(band.count) ||
-          numerics::median(std::move(steps)) > kNoiseShare)
-        continue;
+      if (left.empty() || numerics::median(std::move(steps)) > kNoiseShare) continue;
       const double share = numerics::median(std::move(left));
       if (share < least || (most && share <= most->error)) continue;
       most = {c, data.s[band.first].imag() / kTwoPi, data.s[band.first + band.count - 1].imag() / kTwoPi,
@@ -71,6 +86,19 @@ std::optional<Unexplained> most_unexplained(const FitData& data, const std::vect
     }
   }
   return most;
+}
+
+bool leave_low_end(const FitData& data, const std::vector<dynamics::Mode>& modes, double up_to_hz,
+                   double least) {
+  const Band low{0, (data.s.imag().array() < kTwoPi * up_to_hz).count()};
+  if (low.count < kLeastLowEnd) return false;
+  return std::any_of(data.curves.begin(), data.curves.end(), [&](const Curve& curve) {
+    const auto sizes = curve.h.head(low.count).cwiseAbs().eval();
+    if (sizes[0] < kFalls * sizes.minCoeff()) return false;
+    std::vector<double> left =
+        clear_errors(curve, relative_errors(data, modes, curve), noise_of(data, curve), low);
+    return !left.empty() && numerics::median(std::move(left)) > least;
+  });
 }
 
 }  // namespace stablecut::modal

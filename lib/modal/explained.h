@@ -23,4 +23,9 @@ struct Unexplained {
 std::optional<Unexplained> most_unexplained(const FitData& data, const std::vector<dynamics::Mode>& modes,
                                             double least);
 
+/// Whether modes leave `least` (|model - h| / |h|, the median over lines) or more of a curve that falls up to
+/// `up_to_hz` from the first line on, on lines that stand 10 dB clear of its noise.
+bool leave_low_end(const FitData& data, const std::vector<dynamics::Mode>& modes, double up_to_hz,
+                   double least);
+
 }  // namespace stablecut::modal

@@ -220,6 +220,10 @@ void judge_explained(const std::vector<CurveGroup>& groups, const std::vector<Gr
                   [](const dynamics::Mode& mode) { return mode.out_of_band; }))
     fit.findings.push_back({.kind = FitFindingKind::kNoMode});
   if (options.modes || !options.poles.empty()) return;
+  if (std::any_of(fits.begin(), fits.end(), [&](const GroupFit& part) {
+        return leave_low_end(part.data, part.modes(), options.falls_to_hz, kNoFit);
+      }))
+    fit.findings.push_back({.kind = FitFindingKind::kLowEndLeft, .hi_hz = options.falls_to_hz});
   if (const double left = fit.limited_by_model ? error_beyond_noise(fits) : 0; left > kNoFit) {
     fit.findings.push_back({.kind = FitFindingKind::kUnexplained, .error = left, .restricted = restricted});
     return;

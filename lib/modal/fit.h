@@ -36,6 +36,8 @@ struct FitOptions {
   /// What lies outside the band is fixed terms, one below and one above for each direction, in place of modes
   /// there: `modes` and `poles` are those in the band.
   bool residual_terms = false;
+  /// Up to here curves fall from the first line on (Hz): what modes leave there is a finding. 0: none do.
+  double falls_to_hz = 0;
 };
 
 /// How far the measurement is from reciprocal: sums over all pairs of directions measured both ways.
@@ -64,6 +66,7 @@ enum class FitFindingKind {
   kScaled,              ///< entry missing[0], or else missing[1], is `factor` times what fits the others
   kOneFactor,           ///< entry missing[0] is `reciprocity` times missing[1] in all modes
   kShifted,             ///< natural frequencies of the curves of directions[0], as `shift` has it
+  kLowEndLeft,          ///< up to `hi_hz` curves fall as no modes do
   // Of these a table is no answer (is_no_answer):
   kNoMode,        ///< none in the band stands out of the noise
   kNotConverged,  ///< the last refinement of some group

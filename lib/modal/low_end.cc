@@ -8,9 +8,9 @@
 namespace stablecut::modal {
 namespace {
 
-// Drift rises towards 0 Hz by a factor of at least kDriftRise over what follows it, reaches up to a part of
-// the band at most (kDriftReach), and may be kDriftShare of |H| where it ends.
-constexpr double kDriftRise = 2, kDriftReach = 3, kDriftShare = 0.1;
+// Drift rises towards 0 Hz by a factor of at least kDriftRise over what follows it, and may be kDriftShare of
+// |H| where it ends.
+constexpr double kDriftRise = 2, kDriftShare = 0.1;
 // A curve rises on the way to a resonance by kRising over the least before, and by so many deviations of the
 // noise; both are means over kMeanLines lines.
 constexpr double kRising = 1.3, kStandingOut = 4;
@@ -76,7 +76,7 @@ std::optional<LowEnd> low_end_of(const Eigen::VectorXd& hz, const Channel& chann
     if (gives_energy(channel, channel.windows[i])) ruined = i + 1;
   }
   const LowEnd end{reach_of(channel.windows, doubtful), reach_of(channel.windows, ruined)};
-  if (end.doubtful_hz == 0 || kDriftReach * end.doubtful_hz > hz[hz.size() - 1]) return std::nullopt;
+  if (end.doubtful_hz == 0 || kLowEndShare * end.doubtful_hz > hz[hz.size() - 1]) return std::nullopt;
   return end;
 }
 

@@ -8,6 +8,9 @@
 
 namespace stablecut::modal {
 
+/// A low end reaches up to that part of the band at most.
+inline constexpr double kLowEndShare = 3;
+
 /// The frequency (Hz) at which |H| of a channel first rises on the way to a resonance, clear of noise and
 /// taking energy, as no drift does; infinite where it never does. `hz` [lines].
 double first_rise_hz(const Eigen::VectorXd& hz, const Channel& channel);

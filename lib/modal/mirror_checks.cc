@@ -19,9 +19,9 @@ using numerics::median;
 // Relative difference of mirrored entries that is said, also in units of what noise alone would make.
 constexpr double kNotReciprocalShare = 0.1, kNotReciprocalNoises = 3;
 constexpr double kOpposite = 0.3;  // of the sum of mirrored entries, below which one has the other sign
-// Logarithm of the odds from which on responses were exchanged; and what counts as an octave: so many clear
-// lines.
-constexpr double kSureExchange = 6;
+// Logarithm of the odds from which on responses were exchanged: of the mirror images alone, and where only the
+// exchange makes the driving points take energy. What counts as an octave: so many clear lines.
+constexpr double kSureExchange = 6, kLikelyExchange = 1;
 constexpr std::size_t kLeastOctave = 5;
 constexpr double kEqual = 1e-12;  // relative difference below which two values are the same
 
@@ -111,15 +111,19 @@ std::optional<TapFinding> exchanged(const Eigen::VectorXd& hz, const Mirrors& cr
     return std::max(positive_share(one, usable_from_hz, &WindowSummary::imaginary),
                     positive_share(other, usable_from_hz, &WindowSummary::imaginary));
   };
-  const double allowed = std::max(kSomeSign, given(aa, bb) + kOneSign);
+  const double measured = given(aa, bb), allowed = std::max(kSomeSign, measured + kOneSign);
   const Channel &ab = cross.first, &ba = cross.second;
   std::optional<TapFinding> best;
-  double most = kSureExchange;
+  double most = 0;
   const auto consider = [&](TapFinding finding, const Mirrors& instead, const Channel& driving,
                             const Channel& other) {
     const double odds = odds_of(hz, cross, instead, usable_from_hz);
     const MirrorComparison then = compare(hz, instead, usable_from_hz);
-    if (odds < most || !is_usual(then) || given(driving, other) > allowed) return;
+    const double given_then = given(driving, other);
+    const bool mends_energy = measured > kSomeSign && given_then <= kSomeSign;
+    if (odds < std::max(most, mends_energy ? kLikelyExchange : kSureExchange) || !is_usual(then) ||
+        given_then > allowed)
+      return;
     most = odds;
     best = std::move(finding);
     best->least = median(then.difference);

@@ -87,14 +87,14 @@ class Proof {
     std::optional<GroupFit> from_others = from_the_others(now, told);
     std::optional<Proven> best = from_others ? proved(now, told, std::move(*from_others)) : std::nullopt;
     if (from_others && suggested.factor == 1) return best;
-    std::optional<Proven> other = proved(now, suggested, searched(mended(now.data, suggested), given_));
+    std::optional<Proven> other = proved(now, suggested, searched(now, mended(now.data, suggested), given_, suggested));
     return !best || (other && other->gain > best->gain) ? other : best;
   }
 
   // What a search finds in the mended curves, for the next mismatch to be looked for. The mismatch stays: of
   // what is left of it the modes of a search are an imitation.
   GroupFit without(const GroupFit& now, const EntryMismatch& mismatch) const {
-    return searched(mended(now.data, mismatch), given_);
+    return searched(now, mended(now.data, mismatch), given_, mismatch);
   }
 
  private:
@@ -168,7 +168,7 @@ class Proof {
       return std::nullopt;
     CurveVariances variance = given_;
     if (!variance.empty()) variance.erase(variance.begin() + static_cast<std::ptrdiff_t>(mismatch.curve));
-    GroupFit fit = searched(std::move(others), std::move(variance));
+    GroupFit fit = searched(now, std::move(others), std::move(variance), mismatch);
     const Eigen::ArrayXcd told = curve_of(fit.modes(), curve, now.data.s);
     const Eigen::ArrayXcd product = told.conjugate() * curve.h.array() * curve.weight.array();
     if (mismatch.factor == 1) {
@@ -195,8 +195,13 @@ class Proof {
     fit.refined = fit.refine(fit.modes(), kBetween);
   }
 
-  GroupFit searched(FitData data, CurveVariances variance) const {
-    GroupFit found = search_modes(std::move(data), std::move(variance), options_);
+  // What a search finds in curves of `now` that have been mended. A factor leaves the poles as they are that
+  // curves with residues of their own have; those that imitate a delay would be in its way.
+  GroupFit searched(const GroupFit& now, FitData data, CurveVariances variance,
+                    const EntryMismatch& mismatch) const {
+    SelectionOptions options = options_;
+    if (mismatch.factor != 1) options.starts = now.start_poles;
+    GroupFit found = search_modes(std::move(data), std::move(variance), options);
     return found.model == fit_.model ? found : in_model(std::move(found), fit_.model, options_);
   }
 

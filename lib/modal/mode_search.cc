@@ -201,7 +201,7 @@ GroupFit search_modes(FitData data, CurveVariances variance, const SelectionOpti
     fit.start_poles = options.poles;
     fit.refined = fit.refine(modes_at(fit.data, fit.start_poles), kLast);
   } else {
-    fit.start_poles = find_poles(fit);
+    fit.start_poles = options.starts.size() > 0 ? options.starts : find_poles(fit);
     fit.refined = start_modes(fit, fit.start_poles);
   }
   if (fit.noise_estimated) estimate_noise(fit);

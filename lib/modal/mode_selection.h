@@ -17,6 +17,7 @@ struct SelectionOptions {
   int rounds = kSelectionRounds;
   /// Given poles, rad/s; then wanted_modes is their number, and none is looked for. Empty: none are given.
   Eigen::VectorXcd poles{};
+  Eigen::VectorXcd starts{};  ///< poles to start the search from, rad/s; empty: found in the curves
 };
 
 /// How much chi-square a mode must take away to be worth its parameters, judged by what the residual `with`

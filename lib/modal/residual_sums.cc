@@ -24,13 +24,22 @@ STABLECUT_WIDE void pole_on_lanes(const double* omega, Eigen::Index lines, doubl
   }
 }
 
-// Adds residue times phi to the model, in separate parts.
-STABLECUT_WIDE void add_product(const double* phi_re, const double* phi_im, Eigen::Index lines, double re,
-                                double im, double* model_re, double* model_im) {
+// Adds a pole pair to the models of all curves, in separate parts: R phi + conj(R) phi' with phi' of the
+// conjugate pole is Re R (phi + phi') + i Im R (phi - phi').
+STABLECUT_WIDE void add_pole_pair_on_lanes(const double* phi_re, const double* phi_im,
+                                           const double* mirror_re, const double* mirror_im,
+                                           Eigen::Index lines, const std::complex<double>* residue,
+                                           Eigen::Index curves, double* model_re, double* model_im) {
   for (Eigen::Index i = 0; i < lines; i += numerics::kLanes) {
-    const numerics::Lanes x = numerics::load_lanes(phi_re + i), y = numerics::load_lanes(phi_im + i);
-    numerics::store_lanes(numerics::load_lanes(model_re + i) + (re * x - im * y), model_re + i);
-    numerics::store_lanes(numerics::load_lanes(model_im + i) + (re * y + im * x), model_im + i);
+    const numerics::Lanes x = numerics::load_lanes(phi_re + i), y = numerics::load_lanes(phi_im + i),
+                          u = numerics::load_lanes(mirror_re + i), v = numerics::load_lanes(mirror_im + i);
+    const numerics::Lanes sum_re = x + u, sum_im = y + v, turned_re = v - y, turned_im = x - u;
+    for (Eigen::Index c = 0; c < curves; ++c) {
+      const double re = residue[c].real(), im = residue[c].imag();
+      double *to_re = model_re + c * kBlock + i, *to_im = model_im + c * kBlock + i;
+      numerics::store_lanes(numerics::load_lanes(to_re) + (re * sum_re + im * turned_re), to_re);
+      numerics::store_lanes(numerics::load_lanes(to_im) + (re * sum_im + im * turned_im), to_im);
+    }
   }
 }
 
@@ -85,7 +94,14 @@ STABLECUT_WIDE double sum_of_squares(const double* re, const double* im, Eigen::
 // Adds to the eight parts of a pair's sums for one phi: phi and its square, with both parts of the weight.
 STABLECUT_WIDE void add_pair_sums(const double* phi_re, const double* phi_im, const double* weight_re,
                                   const double* weight_im, Eigen::Index lines, double* sums) {
-  numerics::Lanes a_re{}, a_im{}, b_re{}, b_im{}, c_re{}, c_im{}, d_re{}, d_im{};
+  numerics::Lanes a_re = numerics::load_lanes(sums + 0 * numerics::kLanes),
+                  a_im = numerics::load_lanes(sums + 1 * numerics::kLanes),
+                  b_re = numerics::load_lanes(sums + 2 * numerics::kLanes),
+                  b_im = numerics::load_lanes(sums + 3 * numerics::kLanes),
+                  c_re = numerics::load_lanes(sums + 4 * numerics::kLanes),
+                  c_im = numerics::load_lanes(sums + 5 * numerics::kLanes),
+                  d_re = numerics::load_lanes(sums + 6 * numerics::kLanes),
+                  d_im = numerics::load_lanes(sums + 7 * numerics::kLanes);
   for (Eigen::Index i = 0; i < lines; i += numerics::kLanes) {
     const numerics::Lanes x = numerics::load_lanes(phi_re + i), y = numerics::load_lanes(phi_im + i);
     const numerics::Lanes u = x * x - y * y, xy = x * y, v = xy + xy;
@@ -99,14 +115,14 @@ STABLECUT_WIDE void add_pair_sums(const double* phi_re, const double* phi_im, co
     d_re += q * u;
     d_im += q * v;
   }
-  sums[0] += numerics::sum_of(a_re);
-  sums[1] += numerics::sum_of(a_im);
-  sums[2] += numerics::sum_of(b_re);
-  sums[3] += numerics::sum_of(b_im);
-  sums[4] += numerics::sum_of(c_re);
-  sums[5] += numerics::sum_of(c_im);
-  sums[6] += numerics::sum_of(d_re);
-  sums[7] += numerics::sum_of(d_im);
+  numerics::store_lanes(a_re, sums + 0 * numerics::kLanes);
+  numerics::store_lanes(a_im, sums + 1 * numerics::kLanes);
+  numerics::store_lanes(b_re, sums + 2 * numerics::kLanes);
+  numerics::store_lanes(b_im, sums + 3 * numerics::kLanes);
+  numerics::store_lanes(c_re, sums + 4 * numerics::kLanes);
+  numerics::store_lanes(c_im, sums + 5 * numerics::kLanes);
+  numerics::store_lanes(d_re, sums + 6 * numerics::kLanes);
+  numerics::store_lanes(d_im, sums + 7 * numerics::kLanes);
 }
 
 // Complex numbers from two rows of a matrix.
@@ -120,7 +136,14 @@ Eigen::VectorXcd complex_row(const Eigen::MatrixXd& parts, Eigen::Index row, Eig
 STABLECUT_WIDE void add_sums(const double* phi_re, const double* phi_im, const double* weight,
                              const double* error_re, const double* error_im, Eigen::Index lines,
                              double* sums) {
-  numerics::Lanes w_re{}, w_im{}, q_re{}, q_im{}, e_re{}, e_im{}, s_re{}, s_im{};
+  numerics::Lanes w_re = numerics::load_lanes(sums + 0 * numerics::kLanes),
+                  w_im = numerics::load_lanes(sums + 1 * numerics::kLanes),
+                  q_re = numerics::load_lanes(sums + 2 * numerics::kLanes),
+                  q_im = numerics::load_lanes(sums + 3 * numerics::kLanes),
+                  e_re = numerics::load_lanes(sums + 4 * numerics::kLanes),
+                  e_im = numerics::load_lanes(sums + 5 * numerics::kLanes),
+                  s_re = numerics::load_lanes(sums + 6 * numerics::kLanes),
+                  s_im = numerics::load_lanes(sums + 7 * numerics::kLanes);
   for (Eigen::Index i = 0; i < lines; i += numerics::kLanes) {
     const numerics::Lanes x = numerics::load_lanes(phi_re + i), y = numerics::load_lanes(phi_im + i);
     const numerics::Lanes u = x * x - y * y, xy = x * y, v = xy + xy;
@@ -135,14 +158,14 @@ STABLECUT_WIDE void add_sums(const double* phi_re, const double* phi_im, const d
     s_re += u * a + v * b;
     s_im += u * b - v * a;
   }
-  sums[0] += numerics::sum_of(w_re);
-  sums[1] += numerics::sum_of(w_im);
-  sums[2] += numerics::sum_of(q_re);
-  sums[3] += numerics::sum_of(q_im);
-  sums[4] += numerics::sum_of(e_re);
-  sums[5] += numerics::sum_of(e_im);
-  sums[6] += numerics::sum_of(s_re);
-  sums[7] += numerics::sum_of(s_im);
+  numerics::store_lanes(w_re, sums + 0 * numerics::kLanes);
+  numerics::store_lanes(w_im, sums + 1 * numerics::kLanes);
+  numerics::store_lanes(q_re, sums + 2 * numerics::kLanes);
+  numerics::store_lanes(q_im, sums + 3 * numerics::kLanes);
+  numerics::store_lanes(e_re, sums + 4 * numerics::kLanes);
+  numerics::store_lanes(e_im, sums + 5 * numerics::kLanes);
+  numerics::store_lanes(s_re, sums + 6 * numerics::kLanes);
+  numerics::store_lanes(s_im, sums + 7 * numerics::kLanes);
 }
 
 }  // namespace
@@ -204,8 +227,10 @@ double ResidualSums::evaluate(const Eigen::VectorXcd& poles, const Eigen::Matrix
   const Eigen::Index n = poles.size(), pairs = pair_re_.cols();
   Eigen::ArrayXXd phi_re(kBlock, 2 * n), phi_im(kBlock, 2 * n), error_re(kBlock, curves_),
       error_im(kBlock, curves_);
-  // Eight parts for each function of each curve, and of each pair.
-  Eigen::MatrixXd parts = Eigen::MatrixXd::Zero(8, sums == nullptr ? 0 : 2 * n * (curves_ + pairs));
+  const Eigen::MatrixXcd by_pole = residue.transpose();
+  // Eight parts for each function of each curve, and of each pair; each in lanes, to be added up at the end.
+  Eigen::MatrixXd in_lanes =
+      Eigen::MatrixXd::Zero(8 * numerics::kLanes, sums == nullptr ? 0 : 2 * n * (curves_ + pairs));
   double chi_square = 0;
   for (Eigen::Index first = 0; first < omega_.size(); first += kBlock) {
     const Eigen::Index lines = std::min(kBlock, omega_.size() - first);
@@ -215,12 +240,11 @@ double ResidualSums::evaluate(const Eigen::VectorXcd& poles, const Eigen::Matrix
     }
     error_re.setZero();
     error_im.setZero();
+    for (Eigen::Index k = 0; k < n; ++k) {
+      add_pole_pair_on_lanes(&phi_re(0, k), &phi_im(0, k), &phi_re(0, n + k), &phi_im(0, n + k), lines,
+                             &by_pole(0, k), curves_, error_re.data(), error_im.data());
+    }
     for (Eigen::Index c = 0; c < curves_; ++c) {
-      for (Eigen::Index f = 0; f < 2 * n; ++f) {
-        const Complex r = f < n ? residue(f, c) : std::conj(residue(f - n, c));
-        add_product(&phi_re(0, f), &phi_im(0, f), lines, r.real(), r.imag(), &error_re(0, c),
-                    &error_im(0, c));
-      }
       chi_square += weigh_error(&h_re_(first, c), &h_im_(first, c), &own_(first, c), lines, &error_re(0, c),
                                 &error_im(0, c));
     }
@@ -229,15 +253,19 @@ double ResidualSums::evaluate(const Eigen::VectorXcd& poles, const Eigen::Matrix
     for (Eigen::Index f = 0; f < 2 * n; ++f) {
       for (Eigen::Index c = 0; c < curves_; ++c) {
         add_sums(&phi_re(0, f), &phi_im(0, f), &diagonal_(first, c), &error_re(0, c), &error_im(0, c), lines,
-                 &parts(0, c * 2 * n + f));
+                 &in_lanes(0, c * 2 * n + f));
       }
       for (Eigen::Index p = 0; p < pairs; ++p) {
         add_pair_sums(&phi_re(0, f), &phi_im(0, f), &pair_re_(first, p), &pair_im_(first, p), lines,
-                      &parts(0, (curves_ + p) * 2 * n + f));
+                      &in_lanes(0, (curves_ + p) * 2 * n + f));
       }
     }
   }
   if (sums == nullptr) return chi_square;
+  Eigen::MatrixXd parts(8, in_lanes.cols());
+  for (Eigen::Index f = 0; f < parts.cols(); ++f)
+    for (Eigen::Index part = 0; part < parts.rows(); ++part)
+      parts(part, f) = numerics::sum_of(numerics::load_lanes(&in_lanes(part * numerics::kLanes, f)));
   *sums = {};
   const auto part = [&](Eigen::Index which, Eigen::Index row) {
     return complex_row(parts, row, which * 2 * n, 2 * n);

@@ -72,6 +72,7 @@ void check_low_end(const Eigen::VectorXd& hz, const std::vector<Channel>& channe
     if (!channel.dead && channel.driving_point == any_driving)
       risen_hz = std::min(risen_hz, first_rise_hz(hz, channel));
   }
+  if (kLowEndShare * risen_hz < hz[hz.size() - 1]) report.falls_to_hz = risen_hz;
   TapFinding worst{.kind = TapFindingKind::kDrift};
   for (const Channel& channel : channels) {
     if (channel.dead || channel.driving_point != any_driving) continue;

@@ -56,6 +56,9 @@ struct TapReport {
   double usable_from_hz = 0;
   /// Up to here the low end is in doubt (kDrift): to be left out where a fit with it has no answer.
   double doubtful_to_hz = 0;
+  /// Driving points fall up to here, where the first of them rises on the way to a resonance: drift falls so,
+  /// and so do the flanks of modes below the band. 0 where that is more than the lower third of the lines.
+  double falls_to_hz = 0;
   /// Single lines (indices, increasing) on which a value stands out of its neighbours in some entry, as mains
   /// hum makes it: each would become a mode without width, so a fit should leave them out. Empty where there
   /// are so many that something else is behind them.
