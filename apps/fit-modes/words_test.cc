@@ -130,9 +130,13 @@ TEST_CASE("modes that ring at the end of a record, in words") {
 }
 
 TEST_CASE("a low end that was left out is said") {
-  CHECK(left_out_text(18.5) ==
+  CHECK(left_out_text(18.5, false) ==
         "below 18.5 Hz: left out of the fit, which has no answer with these lines; modes there are missing "
         "in the table, and limit no chart");
+  CHECK(left_out_text(18.5, true) ==
+        "below 18.5 Hz: left out of the fit, as what rises there towards 0 Hz is explained by no modes: "
+        "integrated drift of the sensor (--band says otherwise); modes there are missing in the table, and "
+        "limit no chart");
 }
 
 TEST_CASE("what a fit leaves to be known, in words") {
@@ -168,6 +172,9 @@ TEST_CASE("what a fit leaves to be known, in words") {
       "Hxy is 1.1 (+- 0.01) times Hyx in all 7 modes that show both: the sensitivity of a sensor or of the "
       "hammer is off in one direction, or the taps of one direction lie beside the sensor; depths of cut are "
       "wrong by up to as much");
+  check({.kind = FitFindingKind::kLowEndLeft, .hi_hz = 14},
+        "below 14 Hz curves fall as no modes explain: integrated drift of the sensor, or lines that nothing "
+        "was measured on (--band); modes there may be none of the structure");
   check({.kind = FitFindingKind::kShifted,
          .shift = {.least = 0.99801, .most = 0.99801, .deviation = 2.34e-5, .doubled = 3},
          .directions = {"y", "x"}},

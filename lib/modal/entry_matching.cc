@@ -29,9 +29,9 @@ constexpr double kGivenEnergy = 0.0001;
 // Mean cosine between mirrored entries that is conspicuous, and what a delay must make better.
 constexpr double kOutOfPhase = 0.985, kMoreInPhase = 0.02;
 constexpr Eigen::Index kLeastLines = 20;  // clear of noise, or phases tell nothing
-// Chi-square that a residue must be worth to tell a size: ten of its deviations. A pole with more damping is
-// a helper.
-constexpr double kClearResidue = 100, kMostDamping = 0.3;
+// Chi-square that a residue must be worth to tell a size: three of its deviations. A pole with more damping
+// is a helper.
+constexpr double kClearResidue = 9, kMostDamping = 0.3;
 constexpr std::size_t kLeastResidues = 2;  // that tell a scale
 // A scale is off by at least that (logarithm), and by so many deviations.
 constexpr double kLeastScale = 0.01, kSignificant = 2;
@@ -83,23 +83,31 @@ class LinePhases {
   double size_ = 0;
 };
 
-// Median of logarithms, and its deviation: from their scatter or from their own deviations, if more.
+// Median of logarithms by their precisions, and its deviation: from their scatter or from their own
+// deviations, if more.
 struct Middle {
   double value = 0, deviation = 0;
   std::size_t count = 0;
 };
 
-Middle middle_of(const std::vector<double>& values, double precision) {
+Middle middle_of(const std::vector<double>& values, const std::vector<double>& precisions) {
   Middle middle;
   middle.count = values.size();
   if (values.empty()) return middle;
-  middle.value = numerics::median(values);
+  middle.value = numerics::weighted_quantile(values, precisions, 0.5);
   std::vector<double> away;
   away.reserve(values.size());
-  for (const double value : values) away.push_back(std::abs(value - middle.value));
-  const auto n = static_cast<double>(values.size());
-  middle.deviation = std::max(kDeviationOfMedian * numerics::median(std::move(away)) / std::sqrt(n),
-                              1 / std::sqrt(precision));
+  double precision = 0, squares = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    away.push_back(std::abs(values[i] - middle.value));
+    precision += precisions[i];
+    squares += precisions[i] * precisions[i];
+  }
+  // As many equal ones tell as much.
+  const double alike = precision * precision / squares;
+  middle.deviation =
+      std::max(kDeviationOfMedian * numerics::weighted_quantile(away, precisions, 0.5) / std::sqrt(alike),
+               1 / std::sqrt(precision));
   return middle;
 }
 
@@ -211,8 +219,7 @@ class Matching {
   // A mode's residues R_ii R_jj and R_ij R_ji are equal.
   void judge_scale(const Mirrors& mirrors, const Eigen::VectorXcd& poles, const LinearResidues& residues) {
     const std::array<std::size_t, 4> quad{*mirrors.ii, *mirrors.jj, mirrors.ij, mirrors.ji};
-    std::vector<double> determinant, unlike;
-    double precision = 0;
+    std::vector<double> determinant, unlike, precision;
     for (Eigen::Index k = 0; k < poles.size(); ++k) {
       double variance = kLeastDeviation * kLeastDeviation;
       std::array<double, 4> size{};
@@ -224,7 +231,7 @@ class Matching {
         size[c] = std::log(std::abs(residues.residue(k, static_cast<Eigen::Index>(quad[c]))));
       }
       if (!clear) continue;
-      precision += 1 / variance;
+      precision.push_back(1 / variance);
       determinant.push_back(size[0] + size[1] - size[2] - size[3]);
       unlike.push_back(size[2] - size[3]);
     }

@@ -21,7 +21,7 @@ constexpr double kNotReciprocalShare = 0.1, kNotReciprocalNoises = 3;
 constexpr double kOpposite = 0.3;  // of the sum of mirrored entries, below which one has the other sign
 // Logarithm of the odds from which on responses were exchanged: of the mirror images alone, and where only the
 // exchange makes the driving points take energy. What counts as an octave: so many clear lines.
-constexpr double kSureExchange = 6, kLikelyExchange = 1;
+constexpr double kSureExchange = 3, kLikelyExchange = 1;
 constexpr std::size_t kLeastOctave = 5;
 constexpr double kEqual = 1e-12;  // relative difference below which two values are the same
 
@@ -35,7 +35,7 @@ const Channel* find(const std::vector<Channel>& channels, const std::string& res
   const auto at = std::find_if(channels.begin(), channels.end(), [&](const Channel& channel) {
     return channel.entry->response == response && channel.entry->reference == reference;
   });
-  return at == channels.end() || at->dead ? nullptr : &*at;
+  return at == channels.end() ? nullptr : &*at;
 }
 
 // Whether a line stands 10 dB above the noise of both.
@@ -84,13 +84,13 @@ bool is_usual(const MirrorComparison& comparison) {
              std::max(kNotReciprocalShare, kNotReciprocalNoises * median(comparison.noise));
 }
 
-// Logarithm of the odds that the second two are the mirror images and not the first: of a difference whose
-// size nobody knows the likelihood is its inverse, and each octave tells once.
+// Logarithm of the odds that the second two are the mirror images and not the first, up to their sign: of a
+// difference whose size nobody knows the likelihood is its inverse, and each octave tells once.
 double odds_of(const Eigen::VectorXd& hz, const Mirrors& measured, const Mirrors& instead,
                double usable_from_hz) {
   const auto size_on = [](const Mirrors& mirrors, Eigen::Index line) {
     const LineDifference on = difference_on(mirrors, line);
-    return std::hypot(on.difference, on.noise, kEqual);
+    return std::hypot(std::min(on.difference, on.opposite), on.noise, kEqual);
   };
   std::map<int, std::vector<double>> octaves;
   for (Eigen::Index i = 0; i < hz.size(); ++i) {
@@ -120,10 +120,8 @@ std::optional<TapFinding> exchanged(const Eigen::VectorXd& hz, const Mirrors& cr
     const double odds = odds_of(hz, cross, instead, usable_from_hz);
     const MirrorComparison then = compare(hz, instead, usable_from_hz);
     const double given_then = given(driving, other);
-    const bool mends_energy = measured > kSomeSign && given_then <= kSomeSign;
-    if (odds < std::max(most, mends_energy ? kLikelyExchange : kSureExchange) || !is_usual(then) ||
-        given_then > allowed)
-      return;
+    const bool mends_energy = measured > kOneSign && given_then <= kOneSign;
+    if (odds < std::max(most, mends_energy ? kLikelyExchange : kSureExchange) || given_then > allowed) return;
     most = odds;
     best = std::move(finding);
     best->least = median(then.difference);
@@ -143,13 +141,15 @@ std::vector<TapFinding> check_mirrors(const Eigen::VectorXd& hz, const std::vect
   for (const Channel& ab : channels) {
     const std::string &a = ab.entry->response, &b = ab.entry->reference;
     const Channel* ba = find(channels, b, a);
-    if (ab.dead || a >= b || ba == nullptr) continue;
+    if (a >= b || ba == nullptr) continue;
+    const Channel *aa = find(channels, a, a), *bb = find(channels, b, b);
+    // What gives energy at the low end as drift does may be a cross entry in a driving point's place.
+    for (const double from_hz : {usable_from_hz, 0.0}) {
+      if (aa == nullptr || bb == nullptr) break;
+      if (auto finding = exchanged(hz, {ab, *ba}, *aa, *bb, from_hz)) return {std::move(*finding)};
+    }
     const MirrorComparison measured = compare(hz, {ab, *ba}, usable_from_hz);
     if (measured.difference.empty()) continue;
-    const Channel *aa = find(channels, a, a), *bb = find(channels, b, b);
-    if (aa != nullptr && bb != nullptr) {
-      if (auto finding = exchanged(hz, {ab, *ba}, *aa, *bb, usable_from_hz)) return {std::move(*finding)};
-    }
     if (const double sum = median(measured.opposite); sum < kOpposite && !is_usual(measured))
       return {{.kind = TapFindingKind::kOppositeMirror,
                .entry = ab.name(),

@@ -28,7 +28,8 @@ double criterion(const GroupFit& fit, double inflation) {
 }
 
 // The mismatch that is left of curves that modes explain, of the logarithm of a factor or of a delay: one
-// step of Gauss and Newton for it and the modes' parameters together.
+// step of Gauss and Newton for it and the modes' parameters together. It moves the model: noise on the curve
+// would pull a slope of what was measured.
 double step_of(const GroupFit& fit, const EntryMismatch& mismatch) {
   if (fit.modes().empty()) return 0;  // nothing says what the curves should be
   FitData changed = fit.data;
@@ -38,7 +39,7 @@ double step_of(const GroupFit& fit, const EntryMismatch& mismatch) {
     const Eigen::VectorXcd model = curve_of(fit.modes(), curve, changed.s);
     Eigen::VectorXcd slope = Eigen::VectorXcd::Zero(curve.h.size());  // of model - h
     if (mismatch.all || c == mismatch.curve)
-      slope = mismatch.factor == 1 ? Eigen::VectorXcd(-changed.s.cwiseProduct(curve.h)) : curve.h;
+      slope = mismatch.factor == 1 ? Eigen::VectorXcd(-changed.s.cwiseProduct(model)) : model;
     product += (slope.conjugate().cwiseProduct(model - curve.h)).real().dot(curve.weight);
     square += slope.cwiseAbs2().dot(curve.weight);
     curve.h = model - slope;
