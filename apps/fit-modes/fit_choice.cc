@@ -96,8 +96,7 @@ FittedLines FitChoice::fit(const dynamics::FrequencyResponse& measured, modal::T
   const bool falls = std::any_of(findings.begin(), findings.end(), [](const modal::FitFinding& finding) {
     return finding.kind == modal::FitFindingKind::kLowEndLeft;
   });
-  const double from_hz =
-      std::max(falls ? tap.falls_to_hz : 0.0, answered ? 0.0 : tap.doubtful_to_hz);
+  const double from_hz = std::max(falls ? tap.falls_to_hz : 0.0, answered ? 0.0 : tap.doubtful_to_hz);
   if (band_chosen || from_hz <= tap.usable_from_hz) return result;
   const FittedLines with_low_end = result;
   result.left_out_hz = tap.usable_from_hz = from_hz;

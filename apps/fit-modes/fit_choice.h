@@ -15,7 +15,7 @@ namespace stablecut {
 struct FittedLines {
   dynamics::FrequencyResponse used;
   modal::ModalFit fit;
-  double left_out_hz = 0;   ///< below, lines were left out that drift had ruined; 0: none were
+  double left_out_hz = 0;      ///< below, lines were left out that drift had ruined; 0: none were
   bool low_end_falls = false;  ///< shown by what modes leave there; else there was no answer with these lines
 };
 
@@ -35,7 +35,8 @@ class FitChoice {
   /// Takes that file's poles. Throws DataError.
   void take_poles(const document::Input& input);
   /// Fits modal::usable_part without the lines of --exclude; unless a band was chosen, without the low end
-  /// that no modes explain, or that is in doubt where there is no answer with it. Throws InvalidArgument where no line is left.
+  /// that no modes explain, or that is in doubt where there is no answer with it. Throws InvalidArgument
+  /// where no line is left.
   FittedLines fit(const dynamics::FrequencyResponse& measured, modal::TapReport tap, bool band_chosen,
                   const Progress& progress) const;
   /// What of the choice belongs into the field `fit` of the table.

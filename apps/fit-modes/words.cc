@@ -216,8 +216,8 @@ std::string ringing_text(const modal::RingingModes& ringing) {
 std::string left_out_text(double hz, bool falls) {
   return "below " + number(hz) + " Hz: left out of the fit, " +
          (falls ? "as what rises there towards 0 Hz is explained by no modes: integrated drift of the "
-                           "sensor (--band says otherwise)"
-                         : "which has no answer with these lines") +
+                  "sensor (--band says otherwise)"
+                : "which has no answer with these lines") +
          "; modes there are missing in the table, and limit no chart";
 }
 

@@ -10,8 +10,8 @@
 
 namespace stablecut {
 
-/// That the low end up to `hz` was left out of the fit: it `falls` as no modes explain, or it was in doubt and
-/// there was no answer with it.
+/// That the low end up to `hz` was left out of the fit: it `falls` as no modes explain, or it was in doubt
+/// and there was no answer with it.
 std::string left_out_text(double hz, bool falls);
 
 /// `band_chosen`: the user says which lines count, so that none are left out at the low end.

@@ -14,10 +14,10 @@
 namespace stablecut::modal {
 namespace {
 
-constexpr double kLeastClear = 0.5;      // share of a band's lines that must stand clear of noise
-constexpr Eigen::Index kLeastBand = 20;  // lines
-constexpr double kFalls = 2;             // by that factor over the low end
-constexpr Eigen::Index kLeastLowEnd = 5; // lines
+constexpr double kLeastClear = 0.5;       // share of a band's lines that must stand clear of noise
+constexpr Eigen::Index kLeastBand = 20;   // lines
+constexpr double kFalls = 2;              // by that factor over the low end
+constexpr Eigen::Index kLeastLowEnd = 5;  // lines
 constexpr double kShortOctave = 1.4142135623730951;
 constexpr double kLeastSize = 1e-300;  // of a value, in a quotient
 

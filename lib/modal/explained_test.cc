@@ -1,6 +1,8 @@
 #include "modal/explained.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <complex>
 
 #include "modal/modal_fixtures_test.h"
 
@@ -16,4 +18,18 @@ TEST_CASE("modes that leave much of a band are no answer") {
   const auto left = most_unexplained(data, fewer, 0.5);
   REQUIRE(left);
   CHECK(left->error > 0.5);
+}
+
+TEST_CASE("modes do not explain a drift that takes energy") {
+  const dynamics::ModalModel truth = fixtures::close_pair();
+  FitData data = fixtures::data_of(truth, 1e-3);
+  CHECK_FALSE(leave_low_end(data, truth.modes, 14, 0.5));
+  // An acceleration that falls like 1 / omega^2, as large as the receptance at 12 Hz.
+  for (Curve& curve : data.curves)
+    for (Eigen::Index i = 0; i < 40; ++i)
+      curve.h[i] += std::polar(std::abs(curve.h[11]), -2.6) * std::pow(12 / (1.0 + static_cast<double>(i)), 4);
+  CHECK(leave_low_end(data, truth.modes, 14, 0.5));
+  // What modes follow is none, and few lines tell nothing.
+  CHECK_FALSE(leave_low_end(data, truth.modes, 14, 1.5));
+  CHECK_FALSE(leave_low_end(data, truth.modes, 5, 0.5));
 }

@@ -19,9 +19,9 @@ using numerics::median;
 // Relative difference of mirrored entries that is said, also in units of what noise alone would make.
 constexpr double kNotReciprocalShare = 0.1, kNotReciprocalNoises = 3;
 constexpr double kOpposite = 0.3;  // of the sum of mirrored entries, below which one has the other sign
-// Logarithm of the odds from which on responses were exchanged: of the mirror images alone, and where only the
-// exchange makes the driving points take energy. What counts as an octave: so many clear lines.
-constexpr double kSureExchange = 3, kLikelyExchange = 1;
+// Logarithm of the odds from which on responses were exchanged, and what share of energy noise and hits
+// beside the sensor may add then. What counts as an octave: so many clear lines.
+constexpr double kSureExchange = 3, kMoreEnergy = 0.05;
 constexpr std::size_t kLeastOctave = 5;
 constexpr double kEqual = 1e-12;  // relative difference below which two values are the same
 
@@ -103,33 +103,52 @@ double odds_of(const Eigen::VectorXd& hz, const Mirrors& measured, const Mirrors
   return odds;
 }
 
+// A 2 x 2 matrix of entries: those in the place of driving points, and the two across.
+struct Matrix {
+  const Channel &aa, &bb;
+  Mirrors cross;
+};
+
+// The share of the power that a structure would give away in some direction: -Im H, symmetric part, has no
+// eigenvalue below 0 where a structure takes energy; mean over clear lines of the negative one over the
+// larger one, each octave alike, for the better of both signs.
+double energy_given(const Eigen::VectorXd& hz, const Matrix& matrix, double usable_from_hz) {
+  double given = 0, with_other_sign = 0, weights = 0;
+  for (Eigen::Index i = 0; i < hz.size(); ++i) {
+    if (hz[i] <= usable_from_hz || !is_clear(matrix.cross, i) || !is_clear({matrix.aa, matrix.bb}, i))
+      continue;
+    const auto taken = [&](const Channel& channel) { return -channel.entry->h[i].imag(); };
+    const double a = taken(matrix.aa), b = taken(matrix.bb),
+                 c = (taken(matrix.cross.first) + taken(matrix.cross.second)) / 2;
+    const double middle = (a + b) / 2, radius = std::hypot((a - b) / 2, c);
+    const double largest = std::abs(middle) + radius;
+    if (largest == 0) continue;
+    given += std::max(radius - middle, 0.0) / largest / hz[i];
+    with_other_sign += std::max(radius + middle, 0.0) / largest / hz[i];
+    weights += 1 / hz[i];
+  }
+  return weights > 0 ? std::min(given, with_other_sign) / weights : 0;
+}
+
 // The responses to one force, or to both, were exchanged, where others than the cross entries are mirror
-// images and the driving points then take energy as they do now.
-std::optional<TapFinding> exchanged(const Eigen::VectorXd& hz, const Mirrors& cross, const Channel& aa,
-                                    const Channel& bb, double usable_from_hz) {
-  const auto given = [&](const Channel& one, const Channel& other) {
-    return std::max(positive_share(one, usable_from_hz, &WindowSummary::imaginary),
-                    positive_share(other, usable_from_hz, &WindowSummary::imaginary));
-  };
-  const double measured = given(aa, bb), allowed = std::max(kSomeSign, measured + kOneSign);
-  const Channel &ab = cross.first, &ba = cross.second;
+// images and the structure then gives no more energy than as measured.
+std::optional<TapFinding> exchanged(const Eigen::VectorXd& hz, const Matrix& measured,
+                                    double usable_from_hz) {
+  const Channel &aa = measured.aa, &bb = measured.bb, &ab = measured.cross.first, &ba = measured.cross.second;
+  const double allowed = energy_given(hz, measured, usable_from_hz) + kMoreEnergy;
   std::optional<TapFinding> best;
-  double most = 0;
-  const auto consider = [&](TapFinding finding, const Mirrors& instead, const Channel& driving,
-                            const Channel& other) {
-    const double odds = odds_of(hz, cross, instead, usable_from_hz);
-    const MirrorComparison then = compare(hz, instead, usable_from_hz);
-    const double given_then = given(driving, other);
-    const bool mends_energy = measured > kOneSign && given_then <= kOneSign;
-    if (odds < std::max(most, mends_energy ? kLikelyExchange : kSureExchange) || given_then > allowed) return;
+  double most = kSureExchange;
+  const auto consider = [&](TapFinding finding, const Matrix& instead) {
+    const double odds = odds_of(hz, measured.cross, instead.cross, usable_from_hz);
+    if (odds < most || energy_given(hz, instead, usable_from_hz) > allowed) return;
     most = odds;
     best = std::move(finding);
-    best->least = median(then.difference);
-    best->most = median(compare(hz, cross, usable_from_hz).difference);
+    best->least = median(compare(hz, instead.cross, usable_from_hz).difference);
+    best->most = median(compare(hz, measured.cross, usable_from_hz).difference);
   };
-  consider({.kind = TapFindingKind::kExchanged, .entry = aa.name(), .mirror = ba.name()}, {ab, aa}, ba, bb);
-  consider({.kind = TapFindingKind::kExchanged, .entry = ab.name(), .mirror = bb.name()}, {bb, ba}, aa, ab);
-  consider({.kind = TapFindingKind::kBothExchanged, .entry = ab.name()}, {bb, aa}, ba, ab);
+  consider({.kind = TapFindingKind::kExchanged, .entry = aa.name(), .mirror = ba.name()}, {ba, bb, {ab, aa}});
+  consider({.kind = TapFindingKind::kExchanged, .entry = ab.name(), .mirror = bb.name()}, {aa, ab, {bb, ba}});
+  consider({.kind = TapFindingKind::kBothExchanged, .entry = ab.name()}, {ba, ab, {bb, aa}});
   return best;
 }
 
@@ -146,7 +165,7 @@ std::vector<TapFinding> check_mirrors(const Eigen::VectorXd& hz, const std::vect
     // What gives energy at the low end as drift does may be a cross entry in a driving point's place.
     for (const double from_hz : {usable_from_hz, 0.0}) {
       if (aa == nullptr || bb == nullptr) break;
-      if (auto finding = exchanged(hz, {ab, *ba}, *aa, *bb, from_hz)) return {std::move(*finding)};
+      if (auto finding = exchanged(hz, {*aa, *bb, {ab, *ba}}, from_hz)) return {std::move(*finding)};
     }
     const MirrorComparison measured = compare(hz, {ab, *ba}, usable_from_hz);
     if (measured.difference.empty()) continue;

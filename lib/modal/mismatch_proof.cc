@@ -84,11 +84,13 @@ class Proof {
   // is looked for from the other curves' modes and from the one that was suggested: either may be far off.
   std::optional<Proven> of(const GroupFit& now, const EntryMismatch& suggested) const {
     if (suggested.factor == 1 && is_worse(now, suggested)) return std::nullopt;
+    if (suggested.all) return of_all(now, suggested);
     EntryMismatch told = suggested;
     std::optional<GroupFit> from_others = from_the_others(now, told);
     std::optional<Proven> best = from_others ? proved(now, told, std::move(*from_others)) : std::nullopt;
     if (from_others && suggested.factor == 1) return best;
-    std::optional<Proven> other = proved(now, suggested, searched(now, mended(now.data, suggested), given_, suggested));
+    std::optional<Proven> other =
+        proved(now, suggested, searched(now, mended(now.data, suggested), given_, suggested));
     return !best || (other && other->gain > best->gain) ? other : best;
   }
 
@@ -99,6 +101,22 @@ class Proof {
   }
 
  private:
+  // Phases of driving points bound a common delay from below, and modes above the band imitate what is left
+  // of it: it is estimated without these, and the curves are searched again.
+  std::optional<Proven> of_all(const GroupFit& now, EntryMismatch mismatch) const {
+    GroupFit after = searched(now, mended(now.data, mismatch), given_, mismatch);
+    GroupFit plain = after;
+    std::erase_if(plain.refined.modes,
+                  [&](const dynamics::Mode& mode) { return mode.pole().imag() > now.data.highest(); });
+    const double before = mismatch.delay_s;
+    if (plain.modes().size() < after.modes().size() && !plain.modes().empty()) {
+      plain.refined = plain.refine(plain.modes(), kBetween);
+      estimate(plain, mismatch);
+    }
+    if (mismatch.delay_s != before) after = searched(now, mended(now.data, mismatch), given_, mismatch);
+    return proved(now, mismatch, std::move(after));
+  }
+
   // `after` is a fit of the curves without the mismatch. Both are judged by the noise that the mended curves
   // show, and the curves as they are by the better of both fits' modes: that a search found more is no
   // mismatch.

@@ -78,3 +78,15 @@ TEST_CASE("an entry whose scale is off is named with its factor") {
   CHECK(found[0].missing.size() == 2);
   CHECK(found[0].factor == Approx(1.05).epsilon(2e-3));
 }
+
+TEST_CASE("noise of an entry does not pull its factor") {
+  // Hxx 25 dB below the noise that the others have: a slope of what was measured gave a factor of 5.3.
+  dynamics::FrequencyResponse frf = tap(8);
+  dynamics::correct(frf, 0, 0, 5);
+  const dynamics::FrequencyResponse noisy = fixtures::with_noise(frf, 15, 9);
+  frf.entries[0].h = noisy.entries[0].h;
+  const std::vector<FitFinding> found = mismatches(frf);
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].kind == FitFindingKind::kScaled);
+  CHECK(found[0].factor == Approx(5).epsilon(0.02));
+}

@@ -282,3 +282,16 @@ TEST_CASE(
   CHECK(y.entry == kXy);
   CHECK(y.most < 0.1);
 }
+
+TEST_CASE("exchanged responses show where the hits lie beside the sensor") {
+  // Mirror images differ by more than a tenth.
+  dynamics::ModalModel model = tip();
+  const std::array<double, 3> hit{0.25, -0.3, 0.35};
+  for (std::size_t k = 0; k < model.modes.size(); ++k) model.modes[k].psi_l[0] *= 1 + hit[k];
+  dynamics::FrequencyResponse frf = dynamics::synthesize(model, usual_lines());
+  dynamics::add_noise(frf, {40.0, std::nullopt, 6});
+  for (auto& entry : frf.entries) entry.variance.resize(0);
+  CHECK(the(TapFindingKind::kNotReciprocal, frf).most > 0.1);
+  std::swap(frf.entries[0].h, frf.entries[2].h);
+  CHECK(the(TapFindingKind::kExchanged, frf).entry == kXx);
+}
