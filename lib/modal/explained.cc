@@ -60,6 +60,14 @@ std::vector<double> clear_errors(const Curve& curve, const Eigen::ArrayXd& error
   return left;
 }
 
+// Whether a driving point gives energy on most lines of a band, by kPositiveShare, with the sign that takes
+// energy on most of all lines.
+bool gives_energy(const Eigen::VectorXcd& h, const Band& band) {
+  const Eigen::ArrayXd given = h.imag().array() / h.cwiseAbs().array().max(kLeastSize);
+  const double sign = 2 * (given > 0).count() > given.size() ? -1 : 1;
+  return 2 * (sign * given.segment(band.first, band.count) > kPositiveShare).count() > band.count;
+}
+
 }  // namespace
 
 std::optional<Unexplained> most_unexplained(const FitData& data, const std::vector<dynamics::Mode>& modes,
@@ -88,17 +96,23 @@ std::optional<Unexplained> most_unexplained(const FitData& data, const std::vect
   return most;
 }
 
-bool leave_low_end(const FitData& data, const std::vector<dynamics::Mode>& modes, double up_to_hz,
-                   double least) {
+bool leave_low_end(const FitData& data, const std::vector<dynamics::Mode>& modes,
+                   const std::vector<bool>& driving, double up_to_hz, double least) {
   const Band low{0, (data.s.imag().array() < kTwoPi * up_to_hz).count()};
   if (low.count < kLeastLowEnd) return false;
-  return std::any_of(data.curves.begin(), data.curves.end(), [&](const Curve& curve) {
+  for (std::size_t c = 0; c < data.curves.size(); ++c) {
+    const Curve& curve = data.curves[c];
     const auto sizes = curve.h.head(low.count).cwiseAbs().eval();
-    if (sizes[0] < kFalls * sizes.minCoeff()) return false;
+    if (sizes[0] < kFalls * sizes.minCoeff()) continue;
     std::vector<double> left =
         clear_errors(curve, relative_errors(data, modes, curve), noise_of(data, curve), low);
-    return !left.empty() && numerics::median(std::move(left)) > least;
-  });
+    if (!left.empty() && numerics::median(std::move(left)) > least) return true;
+    // Drift is largest in the lower half.
+    if (driving[c] &&
+        gives_energy(curve_of(modes, curve, data.s), {0, std::max(kLeastLowEnd, low.count / 2)}))
+      return true;
+  }
+  return false;
 }
 
 }  // namespace stablecut::modal

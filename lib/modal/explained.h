@@ -23,9 +23,11 @@ struct Unexplained {
 std::optional<Unexplained> most_unexplained(const FitData& data, const std::vector<dynamics::Mode>& modes,
                                             double least);
 
-/// Whether modes leave `least` (|model - h| / |h|, the median over lines) or more of a curve that falls up to
-/// `up_to_hz` from the first line on, on lines that stand 10 dB clear of its noise.
-bool leave_low_end(const FitData& data, const std::vector<dynamics::Mode>& modes, double up_to_hz,
-                   double least);
+/// Whether modes are none of a structure's where a curve falls up to `up_to_hz` from the first line on: they
+/// leave `least` of it (|model - h| / |h|, the median over lines that stand 10 dB clear of its noise), or, of
+/// a driving point, give energy on most of the lower half of it as they do not in most of the band. `driving`
+/// [curves].
+bool leave_low_end(const FitData& data, const std::vector<dynamics::Mode>& modes,
+                   const std::vector<bool>& driving, double up_to_hz, double least);
 
 }  // namespace stablecut::modal

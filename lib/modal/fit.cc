@@ -140,6 +140,16 @@ std::vector<EntryName> missing_entries(const dynamics::FrequencyResponse& measur
   return missing;
 }
 
+// Which curves are driving points.
+std::vector<bool> driving_points(const dynamics::FrequencyResponse& measured, const CurveGroup& group,
+                                 const FitData& data) {
+  std::vector<bool> driving;
+  for (const Curve& curve : data.curves)
+    driving.push_back(measured.find(group.directions[curve.response], group.directions[curve.reference])
+                          ->is_driving_point());
+  return driving;
+}
+
 // Entries that come late, or whose scale is off.
 void judge_entries(const dynamics::FrequencyResponse& measured, const std::vector<CurveGroup>& groups,
                    const std::vector<GroupFit>& fits, ModalFit& fit) {
@@ -149,13 +159,9 @@ void judge_entries(const dynamics::FrequencyResponse& measured, const std::vecto
       return EntryName{groups[g].directions[data.curves[c].response],
                        groups[g].directions[data.curves[c].reference]};
     };
-    std::vector<bool> driving;
-    for (std::size_t c = 0; c < data.curves.size(); ++c) {
-      const auto* entry = measured.find(name(c).response, name(c).reference);
-      driving.push_back(entry->is_driving_point());
-    }
     for (const EntryMismatch& mismatch :
-         proved_mismatches(fits[g], groups[g].variance, driving, selection_of(groups[g], {}))) {
+         proved_mismatches(fits[g], groups[g].variance, driving_points(measured, groups[g], data),
+                           selection_of(groups[g], {}))) {
       FitFinding finding{.kind = mismatch.all           ? FitFindingKind::kAllDelayed
                                  : mismatch.factor != 1 ? FitFindingKind::kScaled
                                                         : FitFindingKind::kDelayed,
@@ -213,17 +219,20 @@ double error_beyond_noise(const std::vector<GroupFit>& fits) {
 }
 
 // Where modes explain too little of a curve or a band, whatever limits the fit, or there is none in the band.
-void judge_explained(const std::vector<CurveGroup>& groups, const std::vector<GroupFit>& fits,
-                     const FitOptions& options, ModalFit& fit) {
+void judge_explained(const dynamics::FrequencyResponse& measured, const std::vector<CurveGroup>& groups,
+                     const std::vector<GroupFit>& fits, const FitOptions& options, ModalFit& fit) {
   const bool restricted = fit.mode_model != ModeModel::kNonsymmetric;
   if (std::all_of(fit.model.modes.begin(), fit.model.modes.end(),
                   [](const dynamics::Mode& mode) { return mode.out_of_band; }))
     fit.findings.push_back({.kind = FitFindingKind::kNoMode});
   if (options.modes || !options.poles.empty()) return;
-  if (std::any_of(fits.begin(), fits.end(), [&](const GroupFit& part) {
-        return leave_low_end(part.data, part.modes(), options.falls_to_hz, kNoFit);
-      }))
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (!leave_low_end(fits[g].data, fits[g].modes(), driving_points(measured, groups[g], fits[g].data),
+                       options.falls_to_hz, kNoFit))
+      continue;
     fit.findings.push_back({.kind = FitFindingKind::kLowEndLeft, .hi_hz = options.falls_to_hz});
+    break;
+  }
   if (const double left = fit.limited_by_model ? error_beyond_noise(fits) : 0; left > kNoFit) {
     fit.findings.push_back({.kind = FitFindingKind::kUnexplained, .error = left, .restricted = restricted});
     return;
@@ -243,10 +252,10 @@ void judge_explained(const std::vector<CurveGroup>& groups, const std::vector<Gr
 }
 
 // What says that a fit is no answer.
-void judge_answer(const std::vector<CurveGroup>& groups, const std::vector<GroupFit>& fits,
-                  const FitOptions& options, ModalFit& fit) {
+void judge_answer(const dynamics::FrequencyResponse& measured, const std::vector<CurveGroup>& groups,
+                  const std::vector<GroupFit>& fits, const FitOptions& options, ModalFit& fit) {
   if (!fit.converged) fit.findings.push_back({.kind = FitFindingKind::kNotConverged});
-  judge_explained(groups, fits, options, fit);
+  judge_explained(measured, groups, fits, options, fit);
 }
 
 // All else that a user should know, before what judge_answer found.
@@ -290,7 +299,7 @@ Attempt attempt(const dynamics::FrequencyResponse& measured, const std::vector<C
                 const FitOptions& options) {
   ChosenFits chosen = search(groups, options);
   ModalFit fit = assemble(measured, groups, options, chosen);
-  judge_answer(groups, chosen.fits, options, fit);
+  judge_answer(measured, groups, chosen.fits, options, fit);
   return {std::move(chosen.fits), std::move(fit)};
 }
 

@@ -18,7 +18,8 @@ constexpr std::size_t kMostMismatches = 4;  // of one group
 constexpr int kEstimates = 3;               // of a delay or factor, between refinements
 constexpr double kLeastOwn = 1e-6;          // share of its slope that modes cannot imitate
 constexpr double kLeftOfAsMany = 0.95;      // of a model error, when as many modes meet the mended curves
-constexpr double kNoWorse = 2;  // chi-square of linear least squares that may be left of mended curves
+constexpr double kNoWorse = 2;        // chi-square of linear least squares that may be left of mended curves
+constexpr double kMostDamping = 0.3;  // of a mode that no delay is behind
 constexpr Effort kBetween{60, 0.01};
 
 // Schwarz' criterion [Schwarz1978].
@@ -101,20 +102,25 @@ class Proof {
   }
 
  private:
-  // Phases of driving points bound a common delay from below, and modes above the band imitate what is left
-  // of it: it is estimated without these, and the curves are searched again.
-  std::optional<Proven> of_all(const GroupFit& now, EntryMismatch mismatch) const {
-    GroupFit after = searched(now, mended(now.data, mismatch), given_, mismatch);
-    GroupFit plain = after;
-    std::erase_if(plain.refined.modes,
-                  [&](const dynamics::Mode& mode) { return mode.pole().imag() > now.data.highest(); });
-    const double before = mismatch.delay_s;
-    if (plain.modes().size() < after.modes().size() && !plain.modes().empty()) {
+  // Phases of driving points bound a common delay from below, and modes without a resonance or above the band
+  // imitate what is left of it: if that proves nothing it is estimated without these, and the curves are
+  // searched again.
+  std::optional<Proven> of_all(const GroupFit& now, const EntryMismatch& suggested) const {
+    const GroupFit after = searched(now, mended(now.data, suggested), given_, suggested);
+    std::optional<Proven> proven = proved(now, suggested, after);
+    for (const bool above_band : {false, true}) {
+      if (proven) break;
+      GroupFit plain = after;
+      std::erase_if(plain.refined.modes, [&](const dynamics::Mode& mode) {
+        return above_band ? mode.pole().imag() > now.data.highest() : mode.damping_ratio > kMostDamping;
+      });
+      if (plain.modes().empty() || plain.modes().size() == after.modes().size()) continue;
       plain.refined = plain.refine(plain.modes(), kBetween);
+      EntryMismatch mismatch = suggested;
       estimate(plain, mismatch);
+      proven = proved(now, mismatch, searched(now, mended(now.data, mismatch), given_, mismatch));
     }
-    if (mismatch.delay_s != before) after = searched(now, mended(now.data, mismatch), given_, mismatch);
-    return proved(now, mismatch, std::move(after));
+    return proven;
   }
 
   // `after` is a fit of the curves without the mismatch. Both are judged by the noise that the mended curves
