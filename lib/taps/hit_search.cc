@@ -60,6 +60,7 @@ std::vector<std::vector<Candidate>> hits_of(const std::vector<Candidate>& candid
 // it. Room beyond the middle one's does not count, so that a long silence outweighs no hits.
 Index best_length(const std::vector<std::vector<Candidate>>& hits) {
   std::vector<Index> rooms;
+  rooms.reserve(hits.size());
   for (const auto& together : hits) rooms.push_back(together.back().room);
   std::sort(rooms.begin(), rooms.end(), std::greater<>());
   const Index middle = rooms[rooms.size() / 2];
