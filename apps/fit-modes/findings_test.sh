@@ -45,7 +45,7 @@ done
 fit-modes --convert sound-2x2.csv | jq '(.frequency_hz | map(if . < 120 then 1e-7 * pow(30 / .; 4) else 0 end)) as $d
   | .h |= map(.re = ([.re, $d] | transpose | map(.[0] - 0.86 * .[1])) | .im = ([.im, $d] | transpose | map(.[0] - 0.51 * .[1])))' >"$scratch/drift.json"
 fit-modes "$scratch/drift.json" -o "$result" 2>"$err"
-check "drift that no modes explain is left out, not $(cat "$err")" grep -Eq 'below [0-9.]+ Hz: left out of the fit, as what rises there towards 0 Hz is explained by no modes' "$err"
+check "drift that no modes explain is left out, not $(cat "$err")" grep -Eq 'below [0-9.]+ Hz: left out of the fit, as no modes of a structure explain what rises towards 0 Hz there' "$err"
 check "and the three modes are there" three_modes
 fit-modes --band 5:1000 "$scratch/drift.json" -o "$result" 2>"$err"
 check "a band keeps it, with a word: $(cat "$err")" grep -Eq 'below [0-9.]+ Hz curves fall as no modes explain' "$err"

@@ -215,7 +215,7 @@ std::string ringing_text(const modal::RingingModes& ringing) {
 
 std::string left_out_text(double hz, bool falls) {
   return "below " + number(hz) + " Hz: left out of the fit, " +
-         (falls ? "as what rises there towards 0 Hz is explained by no modes: integrated drift of the "
+         (falls ? "as no modes of a structure explain what rises towards 0 Hz there: integrated drift of the "
                   "sensor (--band says otherwise)"
                 : "which has no answer with these lines") +
          "; modes there are missing in the table, and limit no chart";

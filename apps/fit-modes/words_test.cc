@@ -133,10 +133,11 @@ TEST_CASE("a low end that was left out is said") {
   CHECK(left_out_text(18.5, false) ==
         "below 18.5 Hz: left out of the fit, which has no answer with these lines; modes there are missing "
         "in the table, and limit no chart");
-  CHECK(left_out_text(18.5, true) ==
-        "below 18.5 Hz: left out of the fit, as what rises there towards 0 Hz is explained by no modes: "
-        "integrated drift of the sensor (--band says otherwise); modes there are missing in the table, and "
-        "limit no chart");
+  CHECK(
+      left_out_text(18.5, true) ==
+      "below 18.5 Hz: left out of the fit, as no modes of a structure explain what rises towards 0 Hz there: "
+      "integrated drift of the sensor (--band says otherwise); modes there are missing in the table, and "
+      "limit no chart");
 }
 
 TEST_CASE("what a fit leaves to be known, in words") {
