@@ -261,7 +261,7 @@ void judge_answer(const dynamics::FrequencyResponse& measured, const std::vector
 // All else that a user should know, before what judge_answer found.
 void judge(const dynamics::FrequencyResponse& measured, const std::vector<CurveGroup>& groups,
            const std::vector<GroupFit>& fits, const FitOptions& options, ModalFit& fit) {
-  const std::vector<FitFinding> of_answer = std::exchange(fit.findings, {});
+  std::vector<FitFinding> of_answer = std::exchange(fit.findings, {});
   std::size_t modes = 0;
   for (const GroupFit& part : fits) modes += part.own_modes();
   for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -280,6 +280,12 @@ void judge(const dynamics::FrequencyResponse& measured, const std::vector<CurveG
     fit.findings.push_back({.kind = FitFindingKind::kTakenAsUncoupled, .missing = missing});
   }
   judge_entries(measured, groups, fits, fit);
+  // Responses that come late have phases like drift's.
+  if (std::any_of(fit.findings.begin(), fit.findings.end(), [](const FitFinding& finding) {
+        return finding.kind == FitFindingKind::kDelayed || finding.kind == FitFindingKind::kAllDelayed;
+      }))
+    std::erase_if(of_answer,
+                  [](const FitFinding& finding) { return finding.kind == FitFindingKind::kLowEndLeft; });
   judge_reciprocity(fit);
   judge_poles(groups, fits, fit);
   if (fit.limited_by_model) {
