@@ -10,7 +10,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kUnknownAverages = 6;  // behind a measurement that does not say how many
+constexpr double kUnknownAverages = 5.5;  // behind a measurement that does not say how many
 
 // Directions that responded in some curve, and directions in which a force was applied.
 struct Seen {
