@@ -1,6 +1,7 @@
 #include "fit_choice.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/error.h"
 #include "cli/exit_status.h"
@@ -98,11 +99,11 @@ FittedLines FitChoice::fit(const dynamics::FrequencyResponse& measured, modal::T
   });
   const double from_hz = std::max(falls ? tap.falls_to_hz : 0.0, answered ? 0.0 : tap.doubtful_to_hz);
   if (band_chosen || from_hz <= tap.usable_from_hz) return result;
-  const FittedLines with_low_end = result;
+  FittedLines with_low_end = std::move(result);
   result.left_out_hz = tap.usable_from_hz = from_hz;
   result.low_end_falls = falls;
   run();
-  return answered && !modal::has_answer(result.fit) ? with_low_end : result;
+  return answered && !modal::has_answer(result.fit) ? std::move(with_low_end) : std::move(result);
 }
 
 void FitChoice::add_to_report(document::Json& fit) const {

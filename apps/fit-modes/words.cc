@@ -252,7 +252,8 @@ std::string words_of(const modal::FitFinding& finding) {
       return shifted(finding);
     case modal::FitFindingKind::kLowEndLeft:
       return "below " + number(finding.hi_hz) +
-             " Hz curves fall as no modes explain: integrated drift of the sensor, or lines that nothing was "
+             " Hz the curves fall as those of no structure do: integrated drift of the sensor, or lines that "
+             "nothing was "
              "measured on (--band); modes there may be none of the structure";
     case modal::FitFindingKind::kNoMode:
       return "no mode in the band stands out of the noise";

@@ -174,7 +174,8 @@ TEST_CASE("what a fit leaves to be known, in words") {
       "hammer is off in one direction, or the taps of one direction lie beside the sensor; depths of cut are "
       "wrong by up to as much");
   check({.kind = FitFindingKind::kLowEndLeft, .hi_hz = 14},
-        "below 14 Hz curves fall as no modes explain: integrated drift of the sensor, or lines that nothing "
+        "below 14 Hz the curves fall as those of no structure do: integrated drift of the sensor, or lines "
+        "that nothing "
         "was measured on (--band); modes there may be none of the structure");
   check({.kind = FitFindingKind::kShifted,
          .shift = {.least = 0.99801, .most = 0.99801, .deviation = 2.34e-5, .doubled = 3},

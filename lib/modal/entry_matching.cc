@@ -29,9 +29,8 @@ constexpr double kGivenEnergy = 0.0001;
 // Mean cosine between mirrored entries that is conspicuous, and what a delay must make better.
 constexpr double kOutOfPhase = 0.985, kMoreInPhase = 0.02;
 constexpr Eigen::Index kLeastLines = 20;  // clear of noise, or phases tell nothing
-// Chi-square that a residue must be worth to tell a size: three of its deviations. A pole with more damping
-// is a helper.
-constexpr double kClearResidue = 9, kMostDamping = 0.3;
+// Chi-square that a residue must be worth to tell a size: three of its deviations.
+constexpr double kClearResidue = 9;
 constexpr std::size_t kLeastResidues = 2;  // that tell a scale
 // A scale is off by at least that (logarithm), and by so many deviations.
 constexpr double kLeastScale = 0.01, kSignificant = 2;

@@ -11,6 +11,9 @@
 
 namespace stablecut::modal {
 
+/// A mode with more damping is no structure's: it may imitate what is wrong.
+inline constexpr double kMostDamping = 0.3;
+
 /// What is wrong with one curve, or with one of two.
 struct EntryMismatch {
   std::size_t curve = 0;               ///< index in the data

@@ -7,6 +7,7 @@
 
 #include "base/units.h"
 #include "dynamics/noise.h"
+#include "modal/low_end.h"
 #include "modal/maximum_likelihood.h"
 #include "modal/tap_channels.h"
 #include "numerics/order_statistics.h"
@@ -16,7 +17,6 @@ namespace {
 
 constexpr double kLeastClear = 0.5;       // share of a band's lines that must stand clear of noise
 constexpr Eigen::Index kLeastBand = 20;   // lines
-constexpr double kFalls = 2;              // by that factor over the low end
 constexpr Eigen::Index kLeastLowEnd = 5;  // lines
 constexpr double kShortOctave = 1.4142135623730951;
 constexpr double kLeastSize = 1e-300;  // of a value, in a quotient
@@ -103,7 +103,7 @@ bool leave_low_end(const FitData& data, const std::vector<dynamics::Mode>& modes
   for (std::size_t c = 0; c < data.curves.size(); ++c) {
     const Curve& curve = data.curves[c];
     const auto sizes = curve.h.head(low.count).cwiseAbs().eval();
-    if (sizes[0] < kFalls * sizes.minCoeff()) continue;
+    if (sizes[0] < kDriftRise * sizes.minCoeff()) continue;
     std::vector<double> left =
         clear_errors(curve, relative_errors(data, modes, curve), noise_of(data, curve), low);
     if (!left.empty() && numerics::median(std::move(left)) > least) return true;

@@ -66,7 +66,7 @@ enum class FitFindingKind {
   kScaled,              ///< entry missing[0], or else missing[1], is `factor` times what fits the others
   kOneFactor,           ///< entry missing[0] is `reciprocity` times missing[1] in all modes
   kShifted,             ///< natural frequencies of the curves of directions[0], as `shift` has it
-  kLowEndLeft,          ///< up to `hi_hz` curves fall as no modes do
+  kLowEndLeft,          ///< up to `hi_hz` curves fall as those of no structure do
   // Of these a table is no answer (is_no_answer):
   kNoMode,        ///< none in the band stands out of the noise
   kNotConverged,  ///< the last refinement of some group

@@ -8,9 +8,7 @@
 namespace stablecut::modal {
 namespace {
 
-// Drift rises towards 0 Hz by a factor of at least kDriftRise over what follows it, and may be kDriftShare of
-// |H| where it ends.
-constexpr double kDriftRise = 2, kDriftShare = 0.1;
+constexpr double kDriftShare = 0.1;  // of |H| that drift may be where it ends
 // A curve rises on the way to a resonance by kRising over the least before, and by so many deviations of the
 // noise; both are means over kMeanLines lines.
 constexpr double kRising = 1.3, kStandingOut = 4;

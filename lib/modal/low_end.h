@@ -10,6 +10,8 @@ namespace stablecut::modal {
 
 /// A low end reaches up to that part of the band at most.
 inline constexpr double kLowEndShare = 3;
+/// Drift rises towards 0 Hz by at least that factor over what follows it.
+inline constexpr double kDriftRise = 2;
 
 /// The frequency (Hz) at which |H| of a channel first rises on the way to a resonance, clear of noise and
 /// taking energy, as no drift does; infinite where it never does. `hz` [lines].

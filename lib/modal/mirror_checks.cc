@@ -162,10 +162,12 @@ std::vector<TapFinding> check_mirrors(const Eigen::VectorXd& hz, const std::vect
     const Channel* ba = find(channels, b, a);
     if (a >= b || ba == nullptr) continue;
     const Channel *aa = find(channels, a, a), *bb = find(channels, b, b);
-    // What gives energy at the low end as drift does may be a cross entry in a driving point's place.
-    for (const double from_hz : {usable_from_hz, 0.0}) {
-      if (aa == nullptr || bb == nullptr) break;
-      if (auto finding = exchanged(hz, {*aa, *bb, {ab, *ba}}, from_hz)) return {std::move(*finding)};
+    if (aa != nullptr && bb != nullptr) {
+      const Matrix matrix{*aa, *bb, {ab, *ba}};
+      std::optional<TapFinding> finding = exchanged(hz, matrix, usable_from_hz);
+      // What gives energy at the low end as drift does may be a cross entry in a driving point's place.
+      if (!finding && usable_from_hz > 0) finding = exchanged(hz, matrix, 0);
+      if (finding) return {std::move(*finding)};
     }
     const MirrorComparison measured = compare(hz, {ab, *ba}, usable_from_hz);
     if (measured.difference.empty()) continue;

@@ -18,8 +18,7 @@ constexpr std::size_t kMostMismatches = 4;  // of one group
 constexpr int kEstimates = 3;               // of a delay or factor, between refinements
 constexpr double kLeastOwn = 1e-6;          // share of its slope that modes cannot imitate
 constexpr double kLeftOfAsMany = 0.95;      // of a model error, when as many modes meet the mended curves
-constexpr double kNoWorse = 2;        // chi-square of linear least squares that may be left of mended curves
-constexpr double kMostDamping = 0.3;  // of a mode that no delay is behind
+constexpr double kNoWorse = 2;  // chi-square of linear least squares that may be left of mended curves
 constexpr Effort kBetween{60, 0.01};
 
 // Schwarz' criterion [Schwarz1978].

@@ -91,17 +91,16 @@ STABLECUT_WIDE double sum_of_squares(const double* re, const double* im, Eigen::
   return numerics::sum_of(sum);
 }
 
+// Adds parts to sums that are kept in lanes, one behind the other.
+template <typename... Parts>
+STABLECUT_INLINE void add_lanes(double* sums, const Parts&... parts) {
+  ((numerics::store_lanes(numerics::load_lanes(sums) + parts, sums), sums += numerics::kLanes), ...);
+}
+
 // Adds to the eight parts of a pair's sums for one phi: phi and its square, with both parts of the weight.
 STABLECUT_WIDE void add_pair_sums(const double* phi_re, const double* phi_im, const double* weight_re,
                                   const double* weight_im, Eigen::Index lines, double* sums) {
-  numerics::Lanes a_re = numerics::load_lanes(sums + 0 * numerics::kLanes),
-                  a_im = numerics::load_lanes(sums + 1 * numerics::kLanes),
-                  b_re = numerics::load_lanes(sums + 2 * numerics::kLanes),
-                  b_im = numerics::load_lanes(sums + 3 * numerics::kLanes),
-                  c_re = numerics::load_lanes(sums + 4 * numerics::kLanes),
-                  c_im = numerics::load_lanes(sums + 5 * numerics::kLanes),
-                  d_re = numerics::load_lanes(sums + 6 * numerics::kLanes),
-                  d_im = numerics::load_lanes(sums + 7 * numerics::kLanes);
+  numerics::Lanes a_re{}, a_im{}, b_re{}, b_im{}, c_re{}, c_im{}, d_re{}, d_im{};
   for (Eigen::Index i = 0; i < lines; i += numerics::kLanes) {
     const numerics::Lanes x = numerics::load_lanes(phi_re + i), y = numerics::load_lanes(phi_im + i);
     const numerics::Lanes u = x * x - y * y, xy = x * y, v = xy + xy;
@@ -115,14 +114,7 @@ STABLECUT_WIDE void add_pair_sums(const double* phi_re, const double* phi_im, co
     d_re += q * u;
     d_im += q * v;
   }
-  numerics::store_lanes(a_re, sums + 0 * numerics::kLanes);
-  numerics::store_lanes(a_im, sums + 1 * numerics::kLanes);
-  numerics::store_lanes(b_re, sums + 2 * numerics::kLanes);
-  numerics::store_lanes(b_im, sums + 3 * numerics::kLanes);
-  numerics::store_lanes(c_re, sums + 4 * numerics::kLanes);
-  numerics::store_lanes(c_im, sums + 5 * numerics::kLanes);
-  numerics::store_lanes(d_re, sums + 6 * numerics::kLanes);
-  numerics::store_lanes(d_im, sums + 7 * numerics::kLanes);
+  add_lanes(sums, a_re, a_im, b_re, b_im, c_re, c_im, d_re, d_im);
 }
 
 // Complex numbers from two rows of a matrix.
@@ -136,14 +128,7 @@ Eigen::VectorXcd complex_row(const Eigen::MatrixXd& parts, Eigen::Index row, Eig
 STABLECUT_WIDE void add_sums(const double* phi_re, const double* phi_im, const double* weight,
                              const double* error_re, const double* error_im, Eigen::Index lines,
                              double* sums) {
-  numerics::Lanes w_re = numerics::load_lanes(sums + 0 * numerics::kLanes),
-                  w_im = numerics::load_lanes(sums + 1 * numerics::kLanes),
-                  q_re = numerics::load_lanes(sums + 2 * numerics::kLanes),
-                  q_im = numerics::load_lanes(sums + 3 * numerics::kLanes),
-                  e_re = numerics::load_lanes(sums + 4 * numerics::kLanes),
-                  e_im = numerics::load_lanes(sums + 5 * numerics::kLanes),
-                  s_re = numerics::load_lanes(sums + 6 * numerics::kLanes),
-                  s_im = numerics::load_lanes(sums + 7 * numerics::kLanes);
+  numerics::Lanes w_re{}, w_im{}, q_re{}, q_im{}, e_re{}, e_im{}, s_re{}, s_im{};
   for (Eigen::Index i = 0; i < lines; i += numerics::kLanes) {
     const numerics::Lanes x = numerics::load_lanes(phi_re + i), y = numerics::load_lanes(phi_im + i);
     const numerics::Lanes u = x * x - y * y, xy = x * y, v = xy + xy;
@@ -158,14 +143,7 @@ STABLECUT_WIDE void add_sums(const double* phi_re, const double* phi_im, const d
     s_re += u * a + v * b;
     s_im += u * b - v * a;
   }
-  numerics::store_lanes(w_re, sums + 0 * numerics::kLanes);
-  numerics::store_lanes(w_im, sums + 1 * numerics::kLanes);
-  numerics::store_lanes(q_re, sums + 2 * numerics::kLanes);
-  numerics::store_lanes(q_im, sums + 3 * numerics::kLanes);
-  numerics::store_lanes(e_re, sums + 4 * numerics::kLanes);
-  numerics::store_lanes(e_im, sums + 5 * numerics::kLanes);
-  numerics::store_lanes(s_re, sums + 6 * numerics::kLanes);
-  numerics::store_lanes(s_im, sums + 7 * numerics::kLanes);
+  add_lanes(sums, w_re, w_im, q_re, q_im, e_re, e_im, s_re, s_im);
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ struct TapReport {
   /// Up to here the low end is in doubt (kDrift): to be left out where a fit with it has no answer.
   double doubtful_to_hz = 0;
   /// Driving points fall up to here, where the first of them rises on the way to a resonance: drift falls so,
-  /// and so do the flanks of modes below the band. 0 where that is more than the lower third of the lines.
+  /// and so do the flanks of modes below the band. 0 where that is above the lower third of the band.
   double falls_to_hz = 0;
   /// Single lines (indices, increasing) on which a value stands out of its neighbours in some entry, as mains
   /// hum makes it: each would become a mode without width, so a fit should leave them out. Empty where there
